@@ -1,0 +1,5 @@
+//! The web page's entry point.
+
+fn main() {
+    buslens::app::start();
+}
