@@ -1,1 +1,207 @@
-fn main() {}
+//! Turns compiled wasm into the static page.
+//!
+//! `cargo xtask build` runs this in the project's folder as
+//! `bundle <folder> <name>=<wasm file>…`; the first module is the page's own. It reads `index.html`
+//! and `style/`, and leaves the folder holding the finished page and nothing else.
+
+mod names;
+mod page;
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use flate2::write::GzEncoder;
+use wasm_bindgen_cli_support::Bindgen;
+
+use page::{File, Links};
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(sentence) => {
+            eprintln!("{sentence}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run() -> Result<(), String> {
+    let usage = "Usage: bundle <folder> <name>=<wasm file>…";
+    let mut arguments = std::env::args().skip(1);
+    let folder = PathBuf::from(arguments.next().ok_or(usage)?);
+
+    let mut modules = Vec::new();
+    for argument in arguments {
+        let (name, path) = argument.split_once('=').ok_or(usage)?;
+        modules.push(Module::read(name, Path::new(path))?);
+    }
+    let first = modules.first().ok_or(usage)?;
+
+    let style = hashed("page", "css", stylesheet(Path::new("style"))?);
+    let icon = hashed("icon", "svg", read(Path::new("style/icon.svg"))?);
+    let boot = hashed("boot", "js", page::boot(&first.glue, &first.wasm)?.into_bytes());
+    let template = String::from_utf8(read(Path::new("index.html"))?)
+        .map_err(|_| "index.html is not UTF-8.".to_owned())?;
+    let index = File {
+        name: "index.html".to_owned(),
+        content: page::html(
+            &template,
+            &Links { style: &style, icon: &icon, boot: &boot, glue: &first.glue, wasm: &first.wasm },
+        )?
+        .into_bytes(),
+    };
+
+    let mut files = vec![style, icon, boot];
+    for module in modules {
+        files.extend([module.glue, module.wasm]);
+    }
+    // Last, so that a page served from this folder during a build finds all it links to.
+    files.push(index);
+    write_all(&folder, &files)
+}
+
+/// What wasm-bindgen makes of one compiled module.
+struct Module {
+    glue: File,
+    wasm: File,
+}
+
+impl Module {
+    fn read(name: &str, path: &Path) -> Result<Module, String> {
+        let says = |error| format!("wasm-bindgen could not read {}: {error:#}", path.display());
+        let mut output = Bindgen::new()
+            .input_path(path)
+            .out_name(name)
+            .web(true)
+            .map_err(says)?
+            .typescript(false)
+            .remove_name_section(true)
+            .remove_producers_section(true)
+            .omit_default_module_path(true)
+            .generate_output()
+            .map_err(says)?;
+        // wasm-bindgen lists every crate that uses it, most of them with no snippet.
+        let snippets = output.snippets().values().flatten().count();
+        if snippets > 0 || !output.local_modules().is_empty() {
+            return Err(format!(
+                "A library in `{name}` brings JavaScript files of its own (wasm-bindgen snippets). \
+                 The page has none so far: name them by their content in bundle/src/main.rs \
+                 first, or do without that library."
+            ));
+        }
+        Ok(Module {
+            glue: hashed(name, "js", output.js().as_bytes().to_vec()),
+            wasm: hashed(name, "wasm", output.wasm_mut().emit_wasm()),
+        })
+    }
+}
+
+fn hashed(stem: &str, extension: &str, content: Vec<u8>) -> File {
+    File { name: names::hashed(stem, extension, &content), content }
+}
+
+/// All `.css` files of the folder in the order of their names, as one.
+fn stylesheet(folder: &Path) -> Result<Vec<u8>, String> {
+    let mut paths = Vec::new();
+    for path in entries(folder)? {
+        if path.extension().is_some_and(|extension| extension == "css") {
+            paths.push(path);
+        }
+    }
+    paths.sort();
+    let mut text = Vec::new();
+    for path in paths {
+        text.extend(read(&path)?);
+        text.push(b'\n');
+    }
+    Ok(text)
+}
+
+/// Writes the files and their compressed copies, then removes whatever else the folder holds.
+fn write_all(folder: &Path, files: &[File]) -> Result<(), String> {
+    fs::create_dir_all(folder).map_err(|error| format!("{} cannot be made: {error}.", folder.display()))?;
+    let mut kept = BTreeSet::new();
+    for file in files {
+        let path = folder.join(&file.name);
+        let brotli_path = folder.join(format!("{}.br", file.name));
+        let gzip_path = folder.join(format!("{}.gz", file.name));
+        // Copies are written before the file itself, so a file of the right content has its own.
+        let done = fs::read(&path).is_ok_and(|old| old == file.content)
+            && brotli_path.exists()
+            && gzip_path.exists();
+        if !done {
+            replace(&brotli_path, &brotli(&file.content)?)?;
+            replace(&gzip_path, &gzip(&file.content)?)?;
+            replace(&path, &file.content)?;
+        }
+        kept.extend([path, brotli_path, gzip_path]);
+    }
+    for path in entries(folder)? {
+        if kept.contains(&path) {
+            continue;
+        }
+        let removed = if path.is_dir() { fs::remove_dir_all(&path) } else { fs::remove_file(&path) };
+        removed.map_err(|error| format!("{} cannot be removed: {error}.", path.display()))?;
+    }
+    Ok(())
+}
+
+/// Puts a file in place in one go: whoever reads meanwhile sees the old one or the new one.
+fn replace(path: &Path, content: &[u8]) -> Result<(), String> {
+    let says = |error| format!("{} cannot be written: {error}.", path.display());
+    let mut draft = path.as_os_str().to_owned();
+    draft.push(".new");
+    fs::write(&draft, content).map_err(says)?;
+    fs::rename(&draft, path).map_err(says)
+}
+
+fn brotli(content: &[u8]) -> Result<Vec<u8>, String> {
+    let parameters = brotli::enc::BrotliEncoderParams {
+        quality: 11,
+        lgwin: 22,
+        size_hint: content.len(),
+        ..Default::default()
+    };
+    let mut packed = Vec::new();
+    brotli::BrotliCompress(&mut &*content, &mut packed, &parameters)
+        .map_err(|error| format!("Brotli failed: {error}."))?;
+    Ok(packed)
+}
+
+fn gzip(content: &[u8]) -> Result<Vec<u8>, String> {
+    let mut encoder = GzEncoder::new(Vec::new(), flate2::Compression::best());
+    encoder
+        .write_all(content)
+        .and_then(|()| encoder.finish())
+        .map_err(|error| format!("Gzip failed: {error}."))
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, String> {
+    fs::read(path).map_err(|error| format!("{} cannot be read: {error}.", path.display()))
+}
+
+fn entries(folder: &Path) -> Result<Vec<PathBuf>, String> {
+    let says = |error| format!("{} cannot be listed: {error}.", folder.display());
+    fs::read_dir(folder).map_err(says)?.map(|entry| entry.map(|entry| entry.path()).map_err(says)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Read as _;
+
+    #[test]
+    fn compressed_copies_unpack_to_the_same_bytes() {
+        let content = b"01 03 00 00 00 0A C5 CD ".repeat(1000);
+        let mut unpacked = Vec::new();
+        flate2::read::GzDecoder::new(&*gzip(&content).unwrap()).read_to_end(&mut unpacked).unwrap();
+        assert!(unpacked == content, "gzip");
+
+        let mut unpacked = Vec::new();
+        brotli::BrotliDecompress(&mut &*brotli(&content).unwrap(), &mut unpacked).unwrap();
+        assert!(unpacked == content, "brotli");
+    }
+}

@@ -1,1 +1,69 @@
-fn main() {}
+//! The project's build tool, started as `cargo xtask <command>`.
+//!
+//! It builds the static page, serves it while it is worked on, and runs every check.
+
+mod build;
+mod check;
+mod page_tests;
+mod server;
+mod size;
+mod steps;
+mod tools;
+mod watch;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use steps::Result;
+
+const USAGE: &str = "\
+Usage: cargo xtask <command>
+
+  build              compiles the page into dist/, ready for any static web server
+  serve [--port N]   builds, serves dist/ on this machine and rebuilds after each change
+  test               runs every check, from the formatting to the page in a browser
+  --help             this text";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let work: fn(u16) -> Result = match words[..] {
+        [] | ["help" | "--help" | "-h"] => {
+            println!("{USAGE}");
+            return ExitCode::SUCCESS;
+        }
+        ["build"] => |_| build::run(),
+        ["serve"] | ["serve", "--port", _] => watch::serve,
+        ["test"] => |_| check::run(),
+        // Started by `test` itself, see page_tests.rs.
+        [page_tests::KEEP_DRIVER, driver] => return page_tests::keep_driver(driver),
+        [command @ ("build" | "serve" | "test"), ..] => {
+            return refuse(&format!("`{command}` is not followed by that."));
+        }
+        [unknown, ..] => return refuse(&format!("There is no command `{unknown}`.")),
+    };
+    let Ok(port) = words.get(2).unwrap_or(&server::USUAL_PORT).parse() else {
+        return refuse(&format!("`{}` is not a port: 1 to 65535.", words[2]));
+    };
+
+    match go_to_root().and_then(|()| work(port)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(sentence) => {
+            eprintln!("\n{sentence}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn refuse(sentence: &str) -> ExitCode {
+    eprintln!("{sentence}\n\n{USAGE}");
+    ExitCode::from(2)
+}
+
+/// Every path in this tool starts at the project's folder, wherever it was called from.
+fn go_to_root() -> Result {
+    let own = std::env::var_os("CARGO_MANIFEST_DIR")
+        .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")), PathBuf::from);
+    let root = own.parent().unwrap_or(&own);
+    std::env::set_current_dir(root).map_err(|error| format!("{} cannot be entered: {error}.", root.display()))
+}

@@ -1,0 +1,131 @@
+//! The text files of the page: `index.html` with its links and its policy, and the boot script.
+
+use crate::names::integrity;
+
+/// The boot script as it is written in this folder, with the plain names of the files it loads.
+const BOOT: &str = include_str!("boot.js");
+
+/// What the page may do: run its own files, compile its wasm, and talk to nobody else.
+/// `frame-ancestors` is missing because a browser reads it from a header only.
+const POLICY: &str = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; \
+    img-src 'self' data:; font-src 'self'; connect-src 'self'; worker-src 'self'; \
+    manifest-src 'self'; base-uri 'none'; form-action 'none'";
+
+/// A file of the page under its hashed name.
+pub struct File {
+    pub name: String,
+    pub content: Vec<u8>,
+}
+
+/// What `index.html` links to.
+pub struct Links<'a> {
+    pub style: &'a File,
+    pub icon: &'a File,
+    pub boot: &'a File,
+    pub glue: &'a File,
+    pub wasm: &'a File,
+}
+
+/// The boot script with hashed names in the place of plain ones: `./page.js` becomes
+/// `./page-0123456789abcdef.js`.
+pub fn boot(glue: &File, wasm: &File) -> Result<String, String> {
+    let text = replace_once(BOOT, "./page.js", &format!("./{}", glue.name))?;
+    replace_once(&text, "./page.wasm", &format!("./{}", wasm.name))
+}
+
+/// `index.html`: the template with the policy at the start of its head, before anything that the
+/// policy governs, and the links at the end of it. All addresses are relative, so that the page
+/// works in any folder of a site.
+pub fn html(template: &str, links: &Links) -> Result<String, String> {
+    let policy = format!("<head>\n    <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">");
+    let with_policy = replace_once(template, "<head>", &policy)?;
+
+    let Links { style, icon, boot, glue, wasm } = links;
+    let lines = [
+        format!(
+            r#"<link rel="preload" href="./{}" as="fetch" type="application/wasm" crossorigin>"#,
+            wasm.name
+        ),
+        format!(
+            r#"<link rel="modulepreload" href="./{}" integrity="{}">"#,
+            glue.name,
+            integrity(&glue.content)
+        ),
+        format!(
+            r#"<link rel="stylesheet" href="./{}" integrity="{}">"#,
+            style.name,
+            integrity(&style.content)
+        ),
+        format!(r#"<link rel="icon" href="./{}" type="image/svg+xml">"#, icon.name),
+        format!(r#"<script src="./{}" integrity="{}" defer></script>"#, boot.name, integrity(&boot.content)),
+    ];
+    let links = format!("  {}\n  </head>", lines.join("\n    "));
+    replace_once(&with_policy, "</head>", &links)
+}
+
+/// Replaces the only place where `text` has `from`. A template in which it is missing, or stands
+/// twice, would give a page without its policy or without its script.
+fn replace_once(text: &str, from: &str, to: &str) -> Result<String, String> {
+    match text.matches(from).count() {
+        1 => Ok(text.replacen(from, to, 1)),
+        count => Err(format!(
+            "`{from}` should stand exactly once in the template, but stands there {count} times."
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEMPLATE: &str = "<html>\n  <head>\n    <title>T</title>\n  </head>\n  <body></body>\n</html>\n";
+
+    fn file(name: &str) -> File {
+        File { name: name.to_owned(), content: name.as_bytes().to_vec() }
+    }
+
+    fn page(template: &str) -> Result<String, String> {
+        html(
+            template,
+            &Links {
+                style: &file("page-1.css"),
+                icon: &file("icon-2.svg"),
+                boot: &file("boot-3.js"),
+                glue: &file("page-4.js"),
+                wasm: &file("page-5.wasm"),
+            },
+        )
+    }
+
+    #[test]
+    fn the_policy_comes_before_all_it_governs() {
+        let html = page(TEMPLATE).unwrap();
+        let policy = html.find("Content-Security-Policy").unwrap();
+        let first_address = html.find("href=").unwrap();
+        assert!(policy < first_address, "{html}");
+    }
+
+    #[test]
+    fn every_address_is_relative_and_no_script_is_inline() {
+        let html = page(TEMPLATE).unwrap();
+        for (start, _) in html.match_indices("href=\"").chain(html.match_indices("src=\"")) {
+            let address = html[start..].split('"').nth(1).unwrap();
+            assert!(address.starts_with("./"), "{address} is not relative");
+        }
+        assert_eq!(html.matches("<script").count(), 1, "{html}");
+        assert!(html.contains("defer></script>"), "{html}");
+    }
+
+    #[test]
+    fn a_template_without_a_head_is_refused() {
+        let error = page("<html><body></body></html>").unwrap_err();
+        assert!(error.contains("`<head>`"), "{error}");
+    }
+
+    #[test]
+    fn the_boot_script_loads_the_hashed_names() {
+        let boot = boot(&file("page-4.js"), &file("page-5.wasm")).unwrap();
+        assert!(boot.contains("\"./page-4.js\""), "{boot}");
+        assert!(boot.contains("\"./page-5.wasm\""), "{boot}");
+    }
+}
