@@ -1,4 +1,25 @@
 //! Buslens reads and builds field-bus telegrams.
+//!
+//! The data's way, and the modules on it, each of which may use only those before it:
+//!
+//! - [`field`]: what a field is, what it held, what there is to say about it;
+//! - [`walk`]: a telegram described once, and the walkers that read, write, edit and explain it;
+//! - [`modbus`]: function codes; [`frame`]: what carries them over a line;
+//! - [`text`]: pasted text into bytes, each with its place in the text;
+//! - [`dialogue`]: who speaks, and which response answers which request;
+//! - [`tool`]: decoding and export, plain data in and plain data out;
+//! - `app`: the page (feature `page`).
+//!
+//! No input panics; reading a telegram never fails, what is wrong with it is part of what is read.
+#![forbid(unsafe_code)]
+
+pub mod dialogue;
+pub mod field;
+pub mod frame;
+pub mod modbus;
+pub mod text;
+pub mod tool;
+pub mod walk;
 
 #[cfg(feature = "page")]
 pub mod app;

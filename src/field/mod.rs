@@ -1,0 +1,151 @@
+//! The words that everything else is said in: what a field is ([`Spec`]), what it held in one
+//! telegram ([`Field`]), and what there is to say about it ([`Message`], [`Problem`]).
+//!
+//! Nothing here knows a protocol, and nothing here imports anything else of this crate.
+
+mod message;
+mod problem;
+mod spec;
+mod value;
+
+pub use message::{Argument, Message};
+pub use problem::{Problem, Severity};
+pub use spec::{Format, Name, Role, Spec};
+pub use value::{Check, Value, hex, hex_value};
+
+use crate::message;
+
+/// A run of bytes: of a telegram, or of the text that it was read from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Span {
+    /// The first byte.
+    pub from: usize,
+    /// One past the last byte.
+    pub to: usize,
+}
+
+impl Span {
+    pub const fn new(from: usize, to: usize) -> Self {
+        Self { from, to }
+    }
+
+    pub const fn len(self) -> usize {
+        self.to - self.from
+    }
+
+    pub const fn is_empty(self) -> bool {
+        self.from == self.to
+    }
+
+    pub const fn contains(self, position: usize) -> bool {
+        self.from <= position && position < self.to
+    }
+
+    /// The bytes of `whole` that the span names; what lies outside of `whole` is left out.
+    pub fn of<T>(self, whole: &[T]) -> &[T] {
+        let to = self.to.min(whole.len());
+        &whole[self.from.min(to)..to]
+    }
+}
+
+/// Who speaks: the client (the manuals' master) asks, the server (slave) answers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Direction {
+    Request,
+    Response,
+}
+
+impl Direction {
+    /// The stable word of exports and vectors.
+    pub const fn key(self) -> &'static str {
+        match self {
+            Self::Request => "request",
+            Self::Response => "response",
+        }
+    }
+}
+
+/// Which one of a list a field is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Numbering {
+    /// Its own number is known, such as a register's address.
+    At(u64),
+    /// Only its distance from the first is known: a read response does not repeat the address.
+    Offset(u64),
+}
+
+/// A field of one telegram, with the bytes it was read from and the fields within it.
+///
+/// The leaves of a telegram's tree tile its bytes: each byte belongs to exactly one leaf.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    pub spec: &'static Spec,
+    /// Set for the members of a list.
+    pub number: Option<Numbering>,
+    pub span: Span,
+    pub value: Value,
+    pub problems: Vec<Problem>,
+    pub children: Vec<Field>,
+}
+
+impl Field {
+    pub fn new(spec: &'static Spec, span: Span, value: Value) -> Self {
+        Self { spec, number: None, span, value, problems: Vec::new(), children: Vec::new() }
+    }
+
+    /// The field's name in this telegram: "Quantity", "Register 215", "Register +2".
+    pub fn label(&self) -> Message {
+        Self::numbered(self.spec.label, self.number)
+    }
+
+    /// A label with its number, as [`Field::label`] and the form's entries show it.
+    pub fn numbered(label: &'static str, number: Option<Numbering>) -> Message {
+        match number {
+            None => Message::term(label),
+            Some(Numbering::At(n)) => message!("{label} {n}", label = Argument::Term(label), n = n),
+            Some(Numbering::Offset(n)) => {
+                message!("{label} +{n}", label = Argument::Term(label), n = n)
+            }
+        }
+    }
+
+    /// The value as a person writes it; empty for groups.
+    pub fn value_text(&self) -> String {
+        self.value.text(self.spec.format)
+    }
+
+    /// What the value means, where there is more to say than the value itself.
+    pub fn meaning(&self) -> Option<Message> {
+        self.value.meaning(self.spec, self.children.len())
+    }
+
+    /// Calls `visit` for this field and all below it, parents first.
+    pub fn visit<'a>(&'a self, visit: &mut dyn FnMut(&'a Field)) {
+        visit(self);
+        for child in &self.children {
+            child.visit(visit);
+        }
+    }
+}
+
+/// All problems of a tree in the order of its fields.
+pub fn problems(fields: &[Field]) -> Vec<&Problem> {
+    let mut found = Vec::new();
+    for field in fields {
+        field.visit(&mut |field| found.extend(&field.problems));
+    }
+    found
+}
+
+/// The leaves of a tree, in the order of the bytes. Together they tile the telegram.
+pub fn leaves(fields: &[Field]) -> Vec<&Field> {
+    let mut found = Vec::new();
+    for field in fields {
+        field.visit(&mut |field| {
+            if field.children.is_empty() {
+                found.push(field);
+            }
+        });
+    }
+    found
+}

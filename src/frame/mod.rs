@@ -1,0 +1,3 @@
+//! Frames: what carries a PDU over a line, with address and check.
+
+pub mod modbus_rtu;

@@ -1,0 +1,108 @@
+//! The exception response: a server refuses a request.
+//!
+//! Layout: function code + 80h (1 byte), exception code (1 byte).
+
+use super::{Body, EXCEPTION, Kind, Length, Server};
+use crate::field::{Direction, Message, Name, Role, Spec, hex_value};
+use crate::message;
+use crate::walk::{Telegram, Walk, Walker};
+
+pub static RESPONSE: Kind = Kind {
+    function: EXCEPTION,
+    direction: Direction::Response,
+    spec: Spec::new("exception_response", "Exception")
+        .note("The server refuses. The function code is that of the request with 80h added.")
+        .source(SOURCE),
+    length: Length::Fixed(2),
+    new: || Box::new(Exception { code: 1 }),
+};
+
+/// Why a server refuses.
+pub struct Exception {
+    pub code: u8,
+}
+
+impl Telegram for Exception {
+    fn walk(&mut self, w: &mut dyn Walker) -> Walk {
+        w.u8(&CODE, &mut self.code)
+    }
+}
+
+impl Body for Exception {
+    fn meaning(&self, who: Server) -> Message {
+        match CODE.name(self.code.into()) {
+            Some(name) => message!(
+                "{who} refuses: exception {code}, {name}",
+                who = who.name(),
+                code = self.code,
+                name = Message::term(name.label)
+            ),
+            None => message!(
+                "{who} refuses with exception {code} ({hex}), which the standard does not define",
+                who = who.name(),
+                code = self.code,
+                hex = hex_value(self.code.into(), 1)
+            ),
+        }
+    }
+
+    fn exception(&self) -> Option<u8> {
+        Some(self.code)
+    }
+}
+
+static CODE: Spec = Spec::new("exception", "Exception code")
+    .short("Exception")
+    .role(Role::Status)
+    .note("Why the server refuses.")
+    .source(SOURCE)
+    .names(&[
+        Name {
+            value: 1,
+            label: "function not allowed",
+            note: "The server does not know this function, or not in its present state.",
+        },
+        Name {
+            value: 2,
+            label: "address not allowed",
+            note: "At least one of the registers asked for does not exist in this server.",
+        },
+        Name {
+            value: 3,
+            label: "value not allowed",
+            note: "A count or length in the request is wrong, or the value is out of range.",
+        },
+        Name { value: 4, label: "server failure", note: "The server failed while it worked on the request." },
+        Name {
+            value: 5,
+            label: "accepted, not finished",
+            note: "The server needs time. Ask again later whether it is done.",
+        },
+        Name { value: 6, label: "server busy", note: "The server works on something long. Try again later." },
+        Name { value: 8, label: "memory parity error", note: "The server found its file memory damaged." },
+        Name { value: 10, label: "gateway path unavailable", note: "The gateway is set up wrong or overloaded." },
+        Name {
+            value: 11,
+            label: "gateway target does not respond",
+            note: "Usually the device behind the gateway is off or not connected.",
+        },
+        Name {
+            value: 64,
+            label: "internal buffer overflow (KEB)",
+            note: "The request is longer than the F5 operator can take: ask for less at once.",
+        },
+        Name {
+            value: 65,
+            label: "timeout towards the inverter (KEB)",
+            note: "The operator got no answer from the inverter behind it.",
+        },
+        Name {
+            value: 66,
+            label: "parameter is write-protected (KEB)",
+            note: "The inverter parameter can only be read, or not be written in this state.",
+        },
+        Name { value: 67, label: "wrong password (KEB)", note: "The parameter needs a higher password level." },
+    ]);
+
+/// Codes 1 to 11; KEB's 64 to 67 are in the F5 Modbus operator manual, section 4.2.
+const SOURCE: &str = "Modbus application protocol V1.1b3, 7; KEB COMBIVERT F5 Modbus operator, 4.2";

@@ -1,0 +1,40 @@
+//! Function codes of KEB's own, for 32-bit values in one register address each.
+//!
+//! Source: KEB COMBIVERT F5 Modbus operator manual, section 2.4; the figures' fields are those of
+//! the English edition (CM.F5.010-K000, pages 7 and 8).
+
+pub mod read_long_registers;
+pub mod write_long_registers;
+
+use super::Table;
+use crate::field::{Format, Role, Spec};
+
+/// The F5 operator's registers, read as 32-bit values. The manual gives no largest number; the
+/// limits are what a frame of 256 bytes can hold.
+static LONG_REGISTERS: Table = Table {
+    one: "32-bit register",
+    many: "32-bit registers",
+    width: 4,
+    start: Spec::new("start", "Starting address")
+        .short("Start")
+        .role(Role::Address)
+        .format(Format::HexAddress)
+        .note("The first register. Each address holds a whole 32-bit value.")
+        .source(SOURCE),
+    read_quantity: QUANTITY.limits(1, 62).note("How many 32-bit values are to be read. 62 fit into a frame."),
+    write_quantity: QUANTITY.limits(1, 61).note("How many 32-bit values are written. 61 fit into a frame."),
+    byte_count: Spec::new("byte_count", "Byte count")
+        .short("Bytes")
+        .role(Role::Count)
+        .note("How many bytes of values follow: four for each.")
+        .source(SOURCE),
+    values: Spec::new("values", "Values"),
+    value: Spec::new("value", "Register")
+        .format(Format::Register)
+        .note("A 32-bit value, most significant byte first.")
+        .source(SOURCE),
+};
+
+const QUANTITY: Spec = Spec::new("quantity", "Quantity").role(Role::Count).source(SOURCE);
+
+const SOURCE: &str = "KEB COMBIVERT F5 Modbus operator, 2.4";

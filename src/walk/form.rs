@@ -1,0 +1,411 @@
+//! The form of a telegram: entries that a person can edit, and from them the telegram again.
+
+use super::{Algorithm, Deviation, Deviations, Items, Part, Path, Telegram, WINDOW, Walk, Walker};
+use crate::field::{Format, Message, Numbering, Severity, Spec, hex, hex_value};
+use crate::message;
+
+/// What a person can edit of a telegram.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Form {
+    pub entries: Vec<Entry>,
+}
+
+/// One field of a form.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    pub spec: &'static Spec,
+    pub number: Option<Numbering>,
+    /// The field's place in the telegram: `pdu.values.3.value`.
+    pub path: String,
+    pub content: Content,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum Content {
+    /// A number of `width` bytes, as the person writes it: `200`, `0xC8`, `C8h`, `-1`.
+    Number { width: usize, text: String },
+    /// The choice that made the form what it is: shown, not edited.
+    Choice { raw: u64, chosen: &'static Spec },
+    /// A number that follows from the others. `text` is empty, or what to write instead.
+    Computed { width: usize, computed: u64, text: String },
+    /// Bytes in hex.
+    Bytes { text: String },
+    /// A list that can grow and shrink.
+    List { items: Vec<Vec<Entry>> },
+    Group { entries: Vec<Entry> },
+    /// What a faulty telegram has too much (hex) or how many bytes it keeps (a number).
+    Extra { text: String },
+    Cut { text: String },
+}
+
+/// An entry that does not fit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Misfit {
+    pub path: String,
+    pub message: Message,
+}
+
+/// The form of `telegram` as it is, with its deviations.
+pub fn form(telegram: &mut dyn Telegram, deviations: &Deviations) -> Form {
+    let computed = super::write::compute(telegram, deviations);
+    let mut show =
+        Show { level: Vec::new(), path: Path::default(), deviations, computed: &computed, first: None };
+    // The form never stops a walk.
+    let _ = telegram.walk(&mut show);
+    show.close_window(String::new());
+    Form { entries: show.level }
+}
+
+/// Fills `telegram` from `form`. Entries that do not fit leave their field as it was and are
+/// returned; entries that the telegram does not have are left out.
+pub fn fill(telegram: &mut dyn Telegram, form: &Form) -> Result<Deviations, Vec<Misfit>> {
+    let mut fill = Fill {
+        level: &form.entries,
+        path: Path::default(),
+        deviations: Deviations::default(),
+        misfits: Vec::new(),
+    };
+    // The form never stops a walk.
+    let _ = telegram.walk(&mut fill);
+    fill.close_window(String::new());
+    if fill.misfits.is_empty() { Ok(fill.deviations) } else { Err(fill.misfits) }
+}
+
+/// Reads a number as a person writes it: decimal, `0xC8`, `C8h`, or negative as two's complement.
+pub fn parse_number(text: &str, width: usize) -> Result<u64, Message> {
+    let written = text.trim();
+    let widest = u64::MAX >> (64 - 8 * width);
+    let expected = || {
+        message!(
+            "“{text}” is not a number from 0 to {widest}: write it in decimal, or in hex as 0xC8 or C8h",
+            text = written.to_owned(),
+            widest = widest
+        )
+    };
+    let lower = written.to_ascii_lowercase();
+    let hex_digits = lower.strip_prefix("0x").or_else(|| lower.strip_suffix('h'));
+    let number = match (hex_digits, lower.strip_prefix(['-', '\u{2212}'])) {
+        (Some(digits), _) if !digits.starts_with('+') => u64::from_str_radix(digits, 16).ok(),
+        // The smallest negative number is −(widest / 2) − 1: its top bit is set, as the wire has it.
+        (None, Some(digits)) => digits
+            .parse::<u64>()
+            .ok()
+            .filter(|amount| *amount <= widest / 2 + 1)
+            .map(|amount| amount.wrapping_neg() & widest),
+        _ if lower.starts_with('+') => None,
+        _ => lower.parse().ok(),
+    };
+    number.filter(|number| *number <= widest).ok_or_else(expected)
+}
+
+/// Reads bytes as a person writes them in a form: `01 03 00C8`.
+fn parse_bytes(text: &str) -> Result<Vec<u8>, Message> {
+    let digits: Vec<u8> = text.bytes().filter(|byte| !byte.is_ascii_whitespace()).collect();
+    let byte = |pair: &[u8]| u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok();
+    let all_hex = digits.iter().all(u8::is_ascii_hexdigit) && digits.len().is_multiple_of(2);
+    all_hex
+        .then(|| digits.chunks(2).map_while(byte).collect())
+        .ok_or_else(|| message!("“{text}” is not hex: write two digits for each byte", text = text.to_owned()))
+}
+
+/// A number as the form first shows it.
+fn number_text(spec: &Spec, raw: u64, width: usize) -> String {
+    match spec.format {
+        Format::Hex | Format::HexAddress => hex_value(raw, width),
+        Format::Decimal | Format::Reference(_) | Format::Register => raw.to_string(),
+    }
+}
+
+/// Value to entries.
+struct Show<'a> {
+    level: Vec<Entry>,
+    path: Path,
+    deviations: &'a Deviations,
+    computed: &'a Deviations,
+    /// The number of the list item at hand.
+    first: Option<Numbering>,
+}
+
+impl Show<'_> {
+    fn entry(&mut self, spec: &'static Spec, content: Content) {
+        let path = self.path.join(spec.key);
+        self.level.push(Entry { spec, number: self.first.take(), path, content });
+    }
+
+    fn computed(&mut self, spec: &'static Spec, width: usize) {
+        let path = self.path.join(spec.key);
+        let text = self.deviations.value(&path).map_or(String::new(), |raw| hex_value(raw, width));
+        let computed = self.computed.value(&path).unwrap_or(0);
+        self.entry(spec, Content::Computed { width, computed, text });
+    }
+
+    /// Runs `part` on a level of its own and returns that level.
+    fn nested(&mut self, part: impl FnOnce(&mut Self) -> Walk) -> Walk<Vec<Entry>> {
+        let outer = std::mem::take(&mut self.level);
+        let walk = part(self);
+        let inner = std::mem::replace(&mut self.level, outer);
+        walk.map(|()| inner)
+    }
+
+    fn close_window(&mut self, path: String) {
+        let content = match self.deviations.get(&path) {
+            Some(Deviation::Extra(extra)) => Content::Extra { text: hex(extra) },
+            Some(Deviation::Cut(length)) => Content::Cut { text: length.to_string() },
+            Some(Deviation::Value(_)) | None => return,
+        };
+        self.level.push(Entry { spec: &super::UNEXPECTED, number: None, path, content });
+    }
+}
+
+impl Walker for Show<'_> {
+    fn number(&mut self, spec: &'static Spec, width: usize, raw: &mut u64) -> Walk {
+        self.entry(spec, Content::Number { width, text: number_text(spec, *raw, width) });
+        Ok(())
+    }
+
+    fn select(
+        &mut self,
+        spec: &'static Spec,
+        _: usize,
+        current: u64,
+        choices: &dyn Fn(u64) -> &'static Spec,
+    ) -> Walk<u64> {
+        self.entry(spec, Content::Choice { raw: current, chosen: choices(current) });
+        Ok(current)
+    }
+
+    fn announce(&mut self, spec: &'static Spec, width: usize, items: usize, _: usize) -> Walk<usize> {
+        self.computed(spec, width);
+        Ok(items)
+    }
+
+    fn derived(&mut self, spec: &'static Spec, width: usize, _: Option<u64>) -> Walk {
+        self.computed(spec, width);
+        Ok(())
+    }
+
+    fn bytes(&mut self, spec: &'static Spec, bytes: &mut Vec<u8>) -> Walk {
+        self.entry(spec, Content::Bytes { text: hex(bytes) });
+        Ok(())
+    }
+
+    fn items(
+        &mut self,
+        spec: &'static Spec,
+        items: &mut dyn Items,
+        _: usize,
+        first: Option<u64>,
+    ) -> Walk {
+        let list_path = self.path.clone();
+        let depth = self.path.enter(spec.key);
+        let mut shown = Vec::new();
+        for index in 0..items.len() {
+            let depth = self.path.enter_item(index);
+            let offset = index as u64;
+            self.first = Some(first.map_or(Numbering::Offset(offset), |first| Numbering::At(first + offset)));
+            shown.push(self.nested(|show| items.walk(index, show))?);
+            self.path.leave(depth);
+        }
+        self.path.leave(depth);
+        let path = list_path.join(spec.key);
+        self.level.push(Entry { spec, number: None, path, content: Content::List { items: shown } });
+        Ok(())
+    }
+
+    fn within(&mut self, spec: &'static Spec, part: Part<'_>) -> Walk {
+        let path = self.path.join(spec.key);
+        let number = self.first.take();
+        let depth = self.path.enter(spec.key);
+        let entries = self.nested(|show| part(show))?;
+        self.path.leave(depth);
+        self.level.push(Entry { spec, number, path, content: Content::Group { entries } });
+        Ok(())
+    }
+
+    fn window(&mut self, _: usize, part: Part<'_>) -> Walk {
+        part(self)?;
+        let path = self.path.join(WINDOW);
+        self.close_window(path);
+        Ok(())
+    }
+
+    fn checksum(&mut self, spec: &'static Spec, algorithm: &'static Algorithm, _: usize) -> Walk {
+        self.computed(spec, algorithm.width);
+        Ok(())
+    }
+
+    fn mark(&self) -> usize {
+        0
+    }
+
+    fn remark(&mut self, _: &'static Spec, _: Severity, _: &'static str, _: Message) {}
+}
+
+/// Entries to value.
+struct Fill<'a> {
+    level: &'a [Entry],
+    path: Path,
+    deviations: Deviations,
+    misfits: Vec<Misfit>,
+}
+
+impl<'a> Fill<'a> {
+    /// The content of this level's entry `spec`.
+    fn content(&self, spec: &'static Spec) -> Option<&'a Content> {
+        self.level.iter().find(|entry| std::ptr::eq(entry.spec, spec)).map(|entry| &entry.content)
+    }
+
+    /// What `text` gives, or `None` and a misfit of the entry at `path`.
+    fn parsed<T>(&mut self, path: String, parsed: Result<T, Message>) -> Option<T> {
+        parsed.map_err(|message| self.misfits.push(Misfit { path, message })).ok()
+    }
+
+    fn computed(&mut self, spec: &'static Spec) {
+        if let Some(Content::Computed { width, text, .. }) = self.content(spec)
+            && !text.trim().is_empty()
+        {
+            let path = self.path.join(spec.key);
+            if let Some(raw) = self.parsed(path.clone(), parse_number(text, *width)) {
+                self.deviations.set(path, Deviation::Value(raw));
+            }
+        }
+    }
+
+    fn close_window(&mut self, path: String) {
+        let Some(entry) = self.level.iter().find(|entry| {
+            entry.path == path && matches!(entry.content, Content::Extra { .. } | Content::Cut { .. })
+        }) else {
+            return;
+        };
+        let deviation = match &entry.content {
+            Content::Extra { text } => parse_bytes(text).map(Deviation::Extra),
+            Content::Cut { text } => parse_number(text, 4).map(|length| Deviation::Cut(length as usize)),
+            _ => return,
+        };
+        if let Some(deviation) = self.parsed(path.clone(), deviation) {
+            self.deviations.set(path, deviation);
+        }
+    }
+
+    /// Runs `part` with `level` as the entries at hand.
+    fn at(&mut self, level: &'a [Entry], part: impl FnOnce(&mut Self) -> Walk) -> Walk {
+        let outer = std::mem::replace(&mut self.level, level);
+        let walk = part(self);
+        self.level = outer;
+        walk
+    }
+}
+
+impl Walker for Fill<'_> {
+    fn number(&mut self, spec: &'static Spec, _: usize, raw: &mut u64) -> Walk {
+        if let Some(Content::Number { width, text }) = self.content(spec)
+            && let Some(number) = self.parsed(self.path.join(spec.key), parse_number(text, *width))
+        {
+            *raw = number;
+        }
+        Ok(())
+    }
+
+    fn select(
+        &mut self,
+        spec: &'static Spec,
+        _: usize,
+        current: u64,
+        _: &dyn Fn(u64) -> &'static Spec,
+    ) -> Walk<u64> {
+        match self.content(spec) {
+            Some(Content::Choice { raw, .. }) => Ok(*raw),
+            _ => Ok(current),
+        }
+    }
+
+    fn announce(&mut self, spec: &'static Spec, _: usize, items: usize, _: usize) -> Walk<usize> {
+        self.computed(spec);
+        Ok(items)
+    }
+
+    fn derived(&mut self, spec: &'static Spec, _: usize, _: Option<u64>) -> Walk {
+        self.computed(spec);
+        Ok(())
+    }
+
+    fn bytes(&mut self, spec: &'static Spec, bytes: &mut Vec<u8>) -> Walk {
+        if let Some(Content::Bytes { text }) = self.content(spec)
+            && let Some(parsed) = self.parsed(self.path.join(spec.key), parse_bytes(text))
+        {
+            *bytes = parsed;
+        }
+        Ok(())
+    }
+
+    fn items(&mut self, spec: &'static Spec, items: &mut dyn Items, _: usize, _: Option<u64>) -> Walk {
+        let Some(Content::List { items: entered }) = self.content(spec) else { return Ok(()) };
+        items.resize(entered.len());
+        let depth = self.path.enter(spec.key);
+        for (index, entries) in entered.iter().enumerate() {
+            let depth = self.path.enter_item(index);
+            self.at(entries, |fill| items.walk(index, fill))?;
+            self.path.leave(depth);
+        }
+        self.path.leave(depth);
+        Ok(())
+    }
+
+    fn within(&mut self, spec: &'static Spec, part: Part<'_>) -> Walk {
+        let Some(Content::Group { entries }) = self.content(spec) else { return part(self) };
+        let depth = self.path.enter(spec.key);
+        self.at(entries, |fill| part(fill))?;
+        self.path.leave(depth);
+        Ok(())
+    }
+
+    fn window(&mut self, _: usize, part: Part<'_>) -> Walk {
+        part(self)?;
+        let path = self.path.join(WINDOW);
+        self.close_window(path);
+        Ok(())
+    }
+
+    fn checksum(&mut self, spec: &'static Spec, _: &'static Algorithm, _: usize) -> Walk {
+        self.computed(spec);
+        Ok(())
+    }
+
+    fn mark(&self) -> usize {
+        0
+    }
+
+    fn remark(&mut self, _: &'static Spec, _: Severity, _: &'static str, _: Message) {}
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_read_in_every_usual_notation() {
+        for (text, width, number) in [
+            ("200", 2, 200),
+            (" 0xC8 ", 2, 200),
+            ("C8h", 2, 200),
+            ("00c8H", 2, 200),
+            ("-1", 2, 0xFFFF),
+            ("\u{2212}32768", 2, 0x8000),
+            ("-2147483648", 4, 0x8000_0000),
+            ("18446744073709551615", 8, u64::MAX),
+        ] {
+            assert_eq!(parse_number(text, width), Ok(number), "{text}");
+        }
+        for text in ["", "65536", "-32769", "C8", "0x", "h", "1.5", "+1", "0x+1", "--1"] {
+            assert!(parse_number(text, 2).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn bytes_are_read_with_or_without_spaces() {
+        assert_eq!(parse_bytes("01 03 00C8"), Ok(vec![1, 3, 0, 0xC8]));
+        assert_eq!(parse_bytes(""), Ok(vec![]));
+        assert!(parse_bytes("0").is_err());
+        assert!(parse_bytes("zz").is_err());
+    }
+}

@@ -1,0 +1,321 @@
+use super::{
+    Algorithm, Deviation, Deviations, Items, Part, Path, Stop, Telegram, WINDOW, Walk, Walker, write,
+};
+use crate::field::{
+    Argument, Check, Field, Message, Numbering, Problem, Role, Severity, Span, Spec, Value,
+};
+use crate::message;
+
+/// Reads `bytes` into `telegram` and returns the tree of its fields.
+///
+/// Never fails. Each byte is in exactly one leaf of the tree; what no field claims is in a leaf
+/// [`UNEXPECTED`], and what is missing is a [`Value::Missing`] and a problem.
+pub fn read(telegram: &mut dyn Telegram, bytes: &[u8]) -> Reading {
+    let mut reader = Reader {
+        bytes,
+        position: 0,
+        end: bytes.len(),
+        fields: Vec::new(),
+        path: Path::default(),
+        wire: Deviations::default(),
+    };
+    let walk = telegram.walk(&mut reader);
+    reader.close_window(walk, 0, String::new());
+    Reading { fields: reader.fields, wire: reader.wire }
+}
+
+/// What reading a telegram gave, besides the value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reading {
+    pub fields: Vec<Field>,
+    wire: Deviations,
+}
+
+impl Reading {
+    /// In what the bytes deviate from what `telegram`, the value just read, implies: writing it
+    /// with these gives the same bytes again.
+    pub fn deviations(mut self, telegram: &mut dyn Telegram) -> Deviations {
+        let computed = write::compute(telegram, &self.wire);
+        self.wire.retain(|path, deviation| match deviation {
+            Deviation::Value(found) => computed.value(path) != Some(*found),
+            Deviation::Extra(_) | Deviation::Cut(_) => true,
+        });
+        self.wire
+    }
+}
+
+/// Bytes after the last field of a telegram or of an envelope's payload.
+pub static UNEXPECTED: Spec = Spec::new("unexpected", "Unexpected bytes")
+    .short("Unexpected")
+    .role(Role::Unknown)
+    .note("These bytes come after the last field that the telegram has by its function code and counts.");
+
+struct Reader<'a> {
+    bytes: &'a [u8],
+    position: usize,
+    /// Where the present window ends.
+    end: usize,
+    /// The fields of the present level.
+    fields: Vec<Field>,
+    path: Path,
+    /// All computed numbers as they are on the wire, and what windows have too much or too little.
+    wire: Deviations,
+}
+
+impl Reader<'_> {
+    /// Takes a number; if its bytes are not all there, leaves a missing field and stops.
+    fn take(&mut self, spec: &'static Spec, width: usize, raw: &mut u64) -> Walk {
+        let from = self.position;
+        let found = width.min(self.end - from);
+        self.position = from + found;
+        let span = Span::new(from, self.position);
+        // Absent low bytes count as zero, so that writing and cutting gives the same bytes.
+        *raw = span.of(self.bytes).iter().fold(0, |raw, byte| raw << 8 | u64::from(*byte))
+            << (8 * (width - found));
+        let value =
+            if found == width { Value::Number { raw: *raw, width } } else { Value::Missing { width, found } };
+        self.fields.push(Field::new(spec, span, value));
+        if found == width {
+            return Ok(());
+        }
+        let label = Argument::Term(spec.label);
+        let message = match found {
+            0 => message!(
+                "{label} is missing: the telegram ends at byte {at}, {width} more bytes belong here",
+                label = label,
+                at = from,
+                width = width
+            ),
+            _ => message!(
+                "{label} is cut off: {found} of its {width} bytes are there",
+                label = label,
+                found = found,
+                width = width
+            ),
+        };
+        self.problem(Problem::error("truncated", span, message));
+        Err(Stop)
+    }
+
+    fn problem(&mut self, problem: Problem) {
+        if let Some(field) = self.fields.last_mut() {
+            field.problems.push(problem);
+        }
+    }
+
+    /// The span of the field just read.
+    fn last_span(&self) -> Span {
+        self.fields.last().map_or(Span::new(self.position, self.position), |field| field.span)
+    }
+
+    fn check_limits(&mut self, spec: &'static Spec, raw: u64) {
+        if let (false, Some((from, to))) = (spec.allows(raw), spec.limits) {
+            let message = message!(
+                "{label} is {raw}; {from} to {to} are allowed",
+                label = Argument::Term(spec.label),
+                raw = raw,
+                from = from,
+                to = to
+            );
+            self.problem(Problem::error("out-of-range", self.last_span(), message));
+        }
+    }
+
+    /// Takes a number that other things of the telegram determine, and notes it by its path.
+    fn take_computed(&mut self, spec: &'static Spec, width: usize) -> Walk<u64> {
+        let mut raw = 0;
+        let walk = self.take(spec, width, &mut raw);
+        self.wire.set(self.path.join(spec.key), Deviation::Value(raw));
+        walk.map(|()| raw)
+    }
+
+    /// Reads one level down and puts what was read under a field of its own.
+    fn group(&mut self, spec: &'static Spec, part: impl FnOnce(&mut Self) -> Walk) -> Walk {
+        let from = self.position;
+        let outer = std::mem::take(&mut self.fields);
+        let depth = self.path.enter(spec.key);
+        let walk = part(self);
+        self.path.leave(depth);
+        let children = std::mem::replace(&mut self.fields, outer);
+        let mut field = Field::new(spec, Span::new(from, self.position), Value::Group);
+        field.children = children;
+        self.fields.push(field);
+        walk
+    }
+
+    /// Ends a window that began at `from`: what is left in it becomes an unexpected field.
+    fn close_window(&mut self, walk: Walk, from: usize, path: String) {
+        let left = Span::new(self.position, self.end);
+        if !left.is_empty() {
+            self.position = self.end;
+            let mut field = Field::new(&UNEXPECTED, left, Value::Bytes);
+            field.problems.push(Problem::error(
+                "unexpected-bytes",
+                left,
+                match left.len() {
+                    1 => message!("1 byte more than the telegram should have"),
+                    n => message!("{n} bytes more than the telegram should have", n = n),
+                },
+            ));
+            self.fields.push(field);
+            self.wire.set(path, Deviation::Extra(left.of(self.bytes).to_vec()));
+        } else if walk.is_err() {
+            self.wire.set(path, Deviation::Cut(self.end - from));
+        }
+    }
+}
+
+impl Walker for Reader<'_> {
+    fn number(&mut self, spec: &'static Spec, width: usize, raw: &mut u64) -> Walk {
+        self.take(spec, width, raw)?;
+        self.check_limits(spec, *raw);
+        Ok(())
+    }
+
+    fn select(
+        &mut self,
+        spec: &'static Spec,
+        width: usize,
+        _: u64,
+        choices: &dyn Fn(u64) -> &'static Spec,
+    ) -> Walk<u64> {
+        let mut raw = 0;
+        self.take(spec, width, &mut raw)?;
+        if let Some(field) = self.fields.last_mut() {
+            field.value = Value::Selector { raw, width, chosen: choices(raw) };
+        }
+        Ok(raw)
+    }
+
+    fn announce(&mut self, spec: &'static Spec, width: usize, _: usize, size: usize) -> Walk<usize> {
+        let raw = self.take_computed(spec, width)?;
+        self.check_limits(spec, raw);
+        let size = size as u64;
+        if !raw.is_multiple_of(size) {
+            let message = message!(
+                "{label} is {raw}, which is not a multiple of {size}",
+                label = Argument::Term(spec.label),
+                raw = raw,
+                size = size
+            );
+            self.problem(Problem::error("not-a-multiple", self.last_span(), message));
+        }
+        Ok(usize::try_from(raw / size).unwrap_or(usize::MAX))
+    }
+
+    fn derived(&mut self, spec: &'static Spec, width: usize, expected: Option<u64>) -> Walk {
+        let raw = self.take_computed(spec, width)?;
+        if let Some(expected) = expected
+            && raw != expected
+        {
+            let message = message!(
+                "{label} is {raw}; by the fields before it, it must be {expected}",
+                label = Argument::Term(spec.label),
+                raw = raw,
+                expected = expected
+            );
+            self.problem(Problem::error("count-mismatch", self.last_span(), message));
+        }
+        Ok(())
+    }
+
+    fn bytes(&mut self, spec: &'static Spec, bytes: &mut Vec<u8>) -> Walk {
+        let span = Span::new(self.position, self.end);
+        *bytes = span.of(self.bytes).to_vec();
+        self.position = self.end;
+        if !span.is_empty() {
+            self.fields.push(Field::new(spec, span, Value::Bytes));
+        }
+        Ok(())
+    }
+
+    fn items(
+        &mut self,
+        spec: &'static Spec,
+        items: &mut dyn Items,
+        count: usize,
+        first: Option<u64>,
+    ) -> Walk {
+        let mut there = 0;
+        let walk = self.group(spec, |reader| {
+            // Grows with the bytes that are there, not with what is announced.
+            items.resize(0);
+            while there < count && reader.position < reader.end {
+                items.resize(there + 1);
+                let depth = reader.path.enter_item(there);
+                let walk = items.walk(there, reader);
+                reader.path.leave(depth);
+                walk?;
+                there += 1;
+            }
+            if there < count { Err(Stop) } else { Ok(()) }
+        });
+        let Some(list) = self.fields.last_mut() else { return walk };
+        for (offset, item) in (0..).zip(&mut list.children) {
+            item.number =
+                Some(first.map_or(Numbering::Offset(offset), |first| Numbering::At(first + offset)));
+        }
+        if walk.is_err() {
+            let message = message!(
+                "{count} announced, {there} there: the telegram ends before the list does",
+                count = count,
+                there = there
+            );
+            list.problems.push(Problem::error("truncated", list.span, message));
+        }
+        walk
+    }
+
+    fn within(&mut self, spec: &'static Spec, part: Part<'_>) -> Walk {
+        self.group(spec, |reader| part(reader))
+    }
+
+    fn window(&mut self, keep: usize, part: Part<'_>) -> Walk {
+        let from = self.position;
+        let outer = self.end;
+        // Too short for a payload as long as what is kept: the bytes are the telegram's beginning.
+        if outer - from >= 2 * keep {
+            self.end = outer - keep;
+        }
+        let walk = part(self);
+        let path = self.path.join(WINDOW);
+        self.close_window(walk, from, path);
+        self.end = outer;
+        Ok(())
+    }
+
+    fn checksum(&mut self, spec: &'static Spec, algorithm: &'static Algorithm, from: usize) -> Walk {
+        let covered = Span::new(from, self.position);
+        let found = self.take_computed(spec, algorithm.width)?;
+        let check = Check {
+            kind: algorithm.kind,
+            width: algorithm.width,
+            found,
+            computed: algorithm.wire(covered.of(self.bytes)),
+            low_first: algorithm.low_first,
+        };
+        if !check.ok() {
+            let message = message!(
+                "{label} does not match: {found} found, {computed} computed from the bytes before it",
+                label = Argument::Term(spec.label),
+                found = check.found_bytes(),
+                computed = check.computed_bytes()
+            );
+            self.problem(Problem::error("check-failed", self.last_span(), message));
+        }
+        if let Some(field) = self.fields.last_mut() {
+            field.value = Value::Check(check);
+        }
+        Ok(())
+    }
+
+    fn mark(&self) -> usize {
+        self.position
+    }
+
+    fn remark(&mut self, spec: &'static Spec, severity: Severity, code: &'static str, message: Message) {
+        if let Some(field) = self.fields.iter_mut().rev().find(|field| std::ptr::eq(field.spec, spec)) {
+            field.problems.push(Problem { code, severity, message, span: field.span });
+        }
+    }
+}

@@ -1,0 +1,121 @@
+use super::{Algorithm, Deviation, Deviations, Items, Part, Path, Telegram, WINDOW, Walk, Walker};
+use crate::field::{Message, Severity, Spec};
+
+/// The bytes of `telegram`, with what `deviations` say to be otherwise.
+pub fn write(telegram: &mut dyn Telegram, deviations: &Deviations) -> Vec<u8> {
+    run(telegram, deviations).bytes
+}
+
+/// The computed numbers of `telegram` as they would be without the deviation of their own field
+/// (but with all others).
+pub(super) fn compute(telegram: &mut dyn Telegram, deviations: &Deviations) -> Deviations {
+    run(telegram, deviations).computed
+}
+
+fn run<'a>(telegram: &mut dyn Telegram, deviations: &'a Deviations) -> Writer<'a> {
+    let mut writer =
+        Writer { bytes: Vec::new(), path: Path::default(), deviations, computed: Deviations::default() };
+    // The writer never stops a walk.
+    let _ = telegram.walk(&mut writer);
+    writer.close_window(0, "");
+    writer
+}
+
+struct Writer<'a> {
+    bytes: Vec<u8>,
+    path: Path,
+    deviations: &'a Deviations,
+    computed: Deviations,
+}
+
+impl Writer<'_> {
+    fn put(&mut self, width: usize, raw: u64) {
+        self.bytes.extend_from_slice(&raw.to_be_bytes()[8 - width..]);
+    }
+
+    fn put_computed(&mut self, spec: &'static Spec, width: usize, raw: u64) {
+        let path = self.path.join(spec.key);
+        self.put(width, self.deviations.value(&path).unwrap_or(raw));
+        self.computed.set(path, Deviation::Value(raw));
+    }
+
+    /// Ends a window that began at `from`.
+    fn close_window(&mut self, from: usize, path: &str) {
+        match self.deviations.get(path) {
+            Some(Deviation::Extra(extra)) => self.bytes.extend_from_slice(extra),
+            Some(Deviation::Cut(length)) => self.bytes.truncate(from + length),
+            Some(Deviation::Value(_)) | None => {}
+        }
+    }
+}
+
+impl Walker for Writer<'_> {
+    fn number(&mut self, _: &'static Spec, width: usize, raw: &mut u64) -> Walk {
+        self.put(width, *raw);
+        Ok(())
+    }
+
+    fn select(
+        &mut self,
+        _: &'static Spec,
+        width: usize,
+        current: u64,
+        _: &dyn Fn(u64) -> &'static Spec,
+    ) -> Walk<u64> {
+        self.put(width, current);
+        Ok(current)
+    }
+
+    fn announce(&mut self, spec: &'static Spec, width: usize, items: usize, size: usize) -> Walk<usize> {
+        self.put_computed(spec, width, (items * size) as u64);
+        Ok(items)
+    }
+
+    fn derived(&mut self, spec: &'static Spec, width: usize, expected: Option<u64>) -> Walk {
+        self.put_computed(spec, width, expected.unwrap_or(0));
+        Ok(())
+    }
+
+    fn bytes(&mut self, _: &'static Spec, bytes: &mut Vec<u8>) -> Walk {
+        self.bytes.extend_from_slice(bytes);
+        Ok(())
+    }
+
+    fn items(&mut self, spec: &'static Spec, items: &mut dyn Items, _: usize, _: Option<u64>) -> Walk {
+        let depth = self.path.enter(spec.key);
+        for index in 0..items.len() {
+            let depth = self.path.enter_item(index);
+            items.walk(index, self)?;
+            self.path.leave(depth);
+        }
+        self.path.leave(depth);
+        Ok(())
+    }
+
+    fn within(&mut self, spec: &'static Spec, part: Part<'_>) -> Walk {
+        let depth = self.path.enter(spec.key);
+        part(self)?;
+        self.path.leave(depth);
+        Ok(())
+    }
+
+    fn window(&mut self, _: usize, part: Part<'_>) -> Walk {
+        let from = self.bytes.len();
+        part(self)?;
+        let path = self.path.join(WINDOW);
+        self.close_window(from, &path);
+        Ok(())
+    }
+
+    fn checksum(&mut self, spec: &'static Spec, algorithm: &'static Algorithm, from: usize) -> Walk {
+        let check = algorithm.wire(&self.bytes[from..]);
+        self.put_computed(spec, algorithm.width, check);
+        Ok(())
+    }
+
+    fn mark(&self) -> usize {
+        self.bytes.len()
+    }
+
+    fn remark(&mut self, _: &'static Spec, _: Severity, _: &'static str, _: Message) {}
+}
