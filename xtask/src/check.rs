@@ -1,6 +1,100 @@
-//! `cargo xtask test`: every check.
-use crate::steps::{self, Result};
+//! `cargo xtask test`: every check, in the order in which they fail soonest.
+
+use std::path::Path;
+
+use crate::steps::{self, Result, Step};
+use crate::{build, page_tests, size, tools};
+
+const STEPS: &[Step] = &[
+    ("tools", tools),
+    ("formatting", formatting),
+    ("clippy", clippy),
+    ("clippy for wasm", clippy_for_wasm),
+    ("the library without the page's libraries", lean_library),
+    ("tests", tests),
+    ("examples and benchmarks compile", examples),
+    ("documentation", documentation),
+    ("the page", page),
+    ("size of the page", || size::check(Path::new(build::DIST))),
+    ("the page in a browser", page_tests::run),
+];
 
 pub fn run() -> Result {
-    steps::run_all(&[])
+    steps::run_all(STEPS)
+}
+
+/// First, since a missing tool should not show after minutes.
+fn tools() -> Result {
+    tools::wasm_target()?;
+    tools::component("rustfmt")?;
+    tools::component("clippy")?;
+    let browser = tools::browser()?;
+    let axe = tools::axe()?;
+    println!("Browser: {}", browser.chromium.display());
+    println!("Driver: {}", browser.driver.display());
+    println!("Accessibility: {}", axe.display());
+    Ok(())
+}
+
+fn formatting() -> Result {
+    cargo(&["fmt", "--all", "--check"]).map_err(|error| format!("{error} `cargo fmt --all` puts it right."))
+}
+
+fn clippy() -> Result {
+    cargo(&["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"])
+}
+
+fn clippy_for_wasm() -> Result {
+    cargo(
+        &[
+            &["clippy", "--target", tools::WASM, "--no-default-features", "--features", "page"],
+            &["--lib", "--bin", "page", "--", "--deny", "warnings"][..],
+        ]
+        .concat(),
+    )
+}
+
+/// The library is for programs of every kind: a plain dependency on it must not bring in what only
+/// the page needs.
+fn lean_library() -> Result {
+    let mut question = tools::cargo();
+    question.args(["tree", "--package", "buslens", "--edges", "normal", "--prefix", "none"]);
+    let tree = steps::output(&mut question)?;
+    let found = tree.lines().find(|line| {
+        let name = line.split(' ').next().unwrap_or_default();
+        ["leptos", "web-sys", "js-sys", "wasm-bindgen"].contains(&name)
+    });
+    match found {
+        None => Ok(()),
+        Some(line) => Err(format!(
+            "The library depends on {line}, which only the page may need: make it optional and \
+             name it in the feature `page`."
+        )),
+    }
+}
+
+fn tests() -> Result {
+    // The bundler's libraries are compiled optimized for the page anyway; once is enough.
+    cargo(&["test", "--workspace", "--exclude", "page-tests", "--exclude", "bundle"])?;
+    cargo(&["test", "--release", "--package", "bundle"])
+}
+
+fn examples() -> Result {
+    cargo(&["check", "--examples", "--benches"])?;
+    cargo(&["check", "--lib", "--no-default-features"])
+}
+
+fn documentation() -> Result {
+    steps::run(
+        tools::cargo().args(["doc", "--no-deps", "--workspace"]).env("RUSTDOCFLAGS", "--deny warnings"),
+    )
+}
+
+fn page() -> Result {
+    build::run()?;
+    build::check_no_local_path()
+}
+
+fn cargo(arguments: &[&str]) -> Result {
+    steps::run(tools::cargo().args(arguments))
 }

@@ -4,6 +4,76 @@ use std::path::Path;
 
 use crate::steps::Result;
 
+/// The most bytes that a first view of the page may fetch, compressed with gzip: on a slow phone
+/// line of 400 kbit/s this is under two seconds. 1 kB is 1000 bytes.
+const BUDGET: u64 = 90_000;
+
+/// A file of the page with its lengths in bytes.
+struct Row {
+    name: String,
+    raw: u64,
+    gzip: u64,
+    brotli: u64,
+}
+
+/// Prints what each file weighs and fails if all together weigh too much. Every file counts: the
+/// page fetches all of them when it is opened.
+pub fn check(folder: &Path) -> Result {
+    let mut rows = Vec::new();
+    for name in page_files(folder)? {
+        rows.push(Row {
+            raw: length(&folder.join(&name))?,
+            gzip: length(&folder.join(format!("{name}.gz")))?,
+            brotli: length(&folder.join(format!("{name}.br")))?,
+            name,
+        });
+    }
+    let sum = |column: fn(&Row) -> u64| rows.iter().map(column).sum();
+    let all = Row {
+        name: "together".to_owned(),
+        raw: sum(|row| row.raw),
+        gzip: sum(|row| row.gzip),
+        brotli: sum(|row| row.brotli),
+    };
+
+    println!("{:>10} {:>10} {:>10}", "raw", "gzip", "brotli");
+    for row in rows.iter().chain([&all]) {
+        println!(
+            "{:>10} {:>10} {:>10}  {}",
+            kilobytes(row.raw),
+            kilobytes(row.gzip),
+            kilobytes(row.brotli),
+            row.name
+        );
+    }
+    within(all.gzip, BUDGET)
+}
+
+fn within(gzip: u64, budget: u64) -> Result {
+    if gzip <= budget {
+        println!("{} of the budget are left.", kilobytes(budget - gzip));
+        return Ok(());
+    }
+    Err(format!(
+        "The page weighs {} compressed with gzip, {} more than its budget of {}. Make it smaller, \
+         or raise BUDGET in xtask/src/size.rs and say why.",
+        kilobytes(gzip),
+        kilobytes(gzip - budget),
+        kilobytes(budget)
+    ))
+}
+
+/// `12.34 kB`, with 1000 bytes to the kilobyte.
+fn kilobytes(bytes: u64) -> String {
+    format!("{}.{:02} kB", bytes / 1000, bytes % 1000 / 10)
+}
+
+fn length(path: &Path) -> Result<u64> {
+    let metadata =
+        std::fs::metadata(path).map_err(|error| format!("{} cannot be read: {error}.", path.display()))?;
+    Ok(metadata.len())
+}
+
 /// The names of the page's own files in the folder, without their compressed copies.
 pub fn page_files(folder: &Path) -> Result<Vec<String>> {
     let says = |error| format!("{} cannot be listed: {error}.", folder.display());
@@ -17,4 +87,23 @@ pub fn page_files(folder: &Path) -> Result<Vec<String>> {
     }
     names.sort();
     Ok(names)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_budget_is_the_last_size_that_passes() {
+        assert_eq!(within(90_000, 90_000), Ok(()));
+        let error = within(90_010, 90_000).unwrap_err();
+        assert!(error.contains("90.01 kB") && error.contains("0.01 kB more"), "{error}");
+    }
+
+    #[test]
+    fn kilobytes_have_two_digits_after_the_point() {
+        assert_eq!(kilobytes(90_050), "90.05 kB");
+        assert_eq!(kilobytes(999), "0.99 kB");
+        assert_eq!(kilobytes(0), "0.00 kB");
+    }
 }

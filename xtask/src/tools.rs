@@ -54,3 +54,183 @@ pub fn wasm_target() -> Result {
         )
     })
 }
+
+/// Sees to it that `cargo fmt` and `cargo clippy` are there.
+pub fn component(name: &str) -> Result {
+    // `clippy` is started as `cargo clippy`, `rustfmt` as `cargo fmt`.
+    let command = name.trim_start_matches("rust");
+    let there = cargo().args([command, "--version"]).output().is_ok_and(|output| output.status.success());
+    if there {
+        return Ok(());
+    }
+    println!("Adding {name} to the compiler.");
+    steps::run(Command::new("rustup").args(["component", "add", name])).map_err(|error| {
+        format!(
+            "{error}\nThe checks need {name}. With rustup that is `rustup component add {name}`; \
+             with a compiler from elsewhere, look for its package of that name."
+        )
+    })
+}
+
+/// A browser and the program that drives it.
+pub struct Browser {
+    pub chromium: PathBuf,
+    pub driver: PathBuf,
+}
+
+/// Finds Chromium or Chrome and its driver, and installs them where they are missing.
+pub fn browser() -> Result<Browser> {
+    let find = || Some(Browser { chromium: find_chromium()?, driver: find_driver()? });
+    if let Some(browser) = find() {
+        return Ok(browser);
+    }
+    let tried = install(
+        "Chromium and its driver",
+        &[
+            // Without a font the page has no letters, and a text no width.
+            ("apt-get", &["chromium", "chromium-driver", "fonts-dejavu-core"]),
+            ("dnf", &["chromium", "chromedriver", "dejavu-sans-fonts"]),
+            ("pacman", &["chromium", "ttf-dejavu"]),
+        ],
+    );
+    find().ok_or_else(|| {
+        format!(
+            "{tried}The page tests need Chromium or Chrome, and chromedriver of the same version. \
+             Install both, on the PATH or named by the variables BUSLENS_CHROMIUM and \
+             BUSLENS_CHROMEDRIVER, then start this again."
+        )
+    })
+}
+
+fn find_chromium() -> Option<PathBuf> {
+    named("BUSLENS_CHROMIUM")
+        .or_else(|| on_path(&["chromium", "chromium-browser", "google-chrome", "chrome"]))
+        .or_else(|| {
+            let mut usual = vec![
+                PathBuf::from("/Applications/Google Chrome.app/Contents/MacOS/Google Chrome"),
+                PathBuf::from("/Applications/Chromium.app/Contents/MacOS/Chromium"),
+            ];
+            for folder in ["ProgramFiles", "ProgramFiles(x86)", "LocalAppData"] {
+                let folder = std::env::var_os(folder).map(PathBuf::from);
+                usual.extend(folder.map(|folder| folder.join(r"Google\Chrome\Application\chrome.exe")));
+            }
+            usual.into_iter().find(|path| path.is_file())
+        })
+}
+
+fn find_driver() -> Option<PathBuf> {
+    named("BUSLENS_CHROMEDRIVER").or_else(|| on_path(&["chromedriver"]))
+}
+
+/// The path in an environment variable.
+fn named(variable: &str) -> Option<PathBuf> {
+    std::env::var_os(variable).map(PathBuf::from)
+}
+
+/// The first of the programs that a folder of the PATH holds.
+fn on_path(programs: &[&str]) -> Option<PathBuf> {
+    let path = std::env::var_os("PATH")?;
+    let folders: Vec<PathBuf> = std::env::split_paths(&path).collect();
+    // npm is a batch file on Windows.
+    let extensions: &[&str] = if cfg!(windows) { &[".exe", ".cmd"] } else { &[""] };
+    let mut files = programs.iter().flat_map(|program| {
+        folders.iter().flat_map(move |folder| {
+            extensions.iter().map(move |extension| folder.join(format!("{program}{extension}")))
+        })
+    });
+    files.find(|file| file.is_file())
+}
+
+/// Installs packages with the first of the package managers that this system has. Says what went
+/// wrong, in a sentence before the one that asks a person to do it; nothing went wrong is "".
+fn install(what: &str, managers: &[(&str, &[&str])]) -> String {
+    let Some((manager, packages)) = managers.iter().find(|(manager, _)| on_path(&[manager]).is_some()) else {
+        return String::new();
+    };
+    let Some(rights) = rights() else {
+        return format!("{what} could not be installed: {manager} asks for root. ");
+    };
+    println!("Installing {what} with {manager}: {}.", packages.join(", "));
+    let start = || {
+        let mut command = match rights {
+            Rights::Root => Command::new(manager),
+            Rights::Sudo => {
+                let mut command = Command::new("sudo");
+                command.args(["-n", manager]);
+                command
+            }
+        };
+        // It may ask nothing: nobody might be there to answer.
+        command.env("DEBIAN_FRONTEND", "noninteractive").stdin(std::process::Stdio::null());
+        command
+    };
+    let result = match *manager {
+        "apt-get" => steps::run(start().args(["update", "-qq"])).and_then(|()| {
+            steps::run(start().args(["install", "-y", "-qq", "--no-install-recommends"]).args(*packages))
+        }),
+        "pacman" => steps::run(start().args(["-S", "--noconfirm", "--needed"]).args(*packages)),
+        _ => steps::run(start().args(["install", "-y"]).args(*packages)),
+    };
+    match result {
+        Ok(()) => String::new(),
+        Err(sentence) => format!("{sentence} "),
+    }
+}
+
+/// How a package manager may be started.
+enum Rights {
+    Root,
+    Sudo,
+}
+
+fn rights() -> Option<Rights> {
+    let user = Command::new("id").arg("-u").output().ok()?;
+    if user.stdout.trim_ascii() == b"0" {
+        return Some(Rights::Root);
+    }
+    // `-n`: without asking for a password.
+    let sudo = Command::new("sudo").args(["-n", "true"]).output().ok()?;
+    sudo.status.success().then_some(Rights::Sudo)
+}
+
+/// The version of axe-core that the page is held against.
+const AXE_VERSION: &str = "4.14.1";
+
+/// Finds axe-core, the checker of accessibility, and fetches it with npm where it is missing.
+/// It stays inside Cargo's target folder.
+pub fn axe() -> Result<PathBuf> {
+    let folder = target_folder().join("page-tests");
+    let package = folder.join("node_modules").join("axe-core");
+    let script = package.join("axe.min.js");
+    let version = format!("\"version\": \"{AXE_VERSION}\"");
+    let there = || {
+        let description = std::fs::read_to_string(package.join("package.json"));
+        description.is_ok_and(|text| text.contains(&version)) && script.is_file()
+    };
+    if !there() {
+        let mut tried = String::new();
+        if on_path(&["npm"]).is_none() {
+            let packages: &[&str] = &["nodejs", "npm"];
+            tried = install("npm", &[("apt-get", packages), ("dnf", packages), ("pacman", packages)]);
+        }
+        let npm = on_path(&["npm"]).ok_or_else(|| {
+            format!("{tried}The page tests fetch axe-core with npm: install Node.js with npm, then start this again.")
+        })?;
+        println!("Fetching axe-core {AXE_VERSION} with npm.");
+        std::fs::create_dir_all(&folder)
+            .map_err(|error| format!("{} cannot be made: {error}.", folder.display()))?;
+        steps::run(
+            Command::new(npm)
+                .arg("install")
+                .arg("--prefix")
+                .arg(&folder)
+                .args(["--no-save", "--ignore-scripts", "--no-audit", "--no-fund"])
+                .arg(format!("axe-core@{AXE_VERSION}")),
+        )?;
+    }
+    if there() {
+        std::path::absolute(&script).map_err(|error| format!("{}: {error}.", script.display()))
+    } else {
+        Err(format!("npm ran, but {} is not of version {AXE_VERSION}.", script.display()))
+    }
+}
