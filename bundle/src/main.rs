@@ -40,7 +40,9 @@ fn run() -> Result<(), String> {
     }
     let first = modules.first().ok_or(usage)?;
 
-    let style = hashed("page", "css", stylesheet(Path::new("style"))?);
+    let mut style = stylesheet(Path::new("style"))?;
+    style.extend(page::NOTE_STYLE.bytes());
+    let style = hashed("page", "css", style);
     let icon = hashed("icon", "svg", read(Path::new("style/icon.svg"))?);
     let boot = hashed("boot", "js", page::boot(&first.glue, &first.wasm)?.into_bytes());
     let template = String::from_utf8(read(Path::new("index.html"))?)

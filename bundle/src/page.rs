@@ -5,6 +5,16 @@ use crate::names::integrity;
 /// The boot script as it is written in this folder, with the plain names of the files it loads.
 const BOOT: &str = include_str!("boot.js");
 
+/// The note in the page while it is not running. A page opened by file:// gets neither its scripts
+/// nor its stylesheet, so only the document itself can say why nothing happens. Everywhere else the
+/// stylesheet hides the note, and the boot script removes it or gives it the fitting words.
+const NOTE: &str = "<p id=\"boot\">Buslens is starting. Should this line stay: a browser starts it \
+    from a web server only, not from a file. In the project's folder, <code>cargo xtask serve</code> \
+    starts one.</p>";
+
+/// Hides the note; belongs to the end of the stylesheet.
+pub const NOTE_STYLE: &str = include_str!("boot.css");
+
 /// What the page may do: run its own files, compile its wasm, and talk to nobody else.
 /// `frame-ancestors` is missing because a browser reads it from a header only.
 const POLICY: &str = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; \
@@ -34,8 +44,8 @@ pub fn boot(glue: &File, wasm: &File) -> Result<String, String> {
 }
 
 /// `index.html`: the template with the policy at the start of its head, before anything that the
-/// policy governs, and the links at the end of it. All addresses are relative, so that the page
-/// works in any folder of a site.
+/// policy governs, the links at the end of it, and the note in the body. All addresses are relative,
+/// so that the page works in any folder of a site.
 pub fn html(template: &str, links: &Links) -> Result<String, String> {
     let policy = format!("<head>\n    <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">");
     let with_policy = replace_once(template, "<head>", &policy)?;
@@ -60,7 +70,8 @@ pub fn html(template: &str, links: &Links) -> Result<String, String> {
         format!(r#"<script src="./{}" integrity="{}" defer></script>"#, boot.name, integrity(&boot.content)),
     ];
     let links = format!("  {}\n  </head>", lines.join("\n    "));
-    replace_once(&with_policy, "</head>", &links)
+    let with_links = replace_once(&with_policy, "</head>", &links)?;
+    replace_once(&with_links, "<body>", &format!("<body>\n    {NOTE}"))
 }
 
 /// Replaces the only place where `text` has `from`. A template in which it is missing, or stands

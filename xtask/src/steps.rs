@@ -25,6 +25,17 @@ pub fn output(command: &mut Command) -> Result<String> {
     }
 }
 
+/// Runs a program to its end; what it prints is seen only if it fails.
+pub fn run_quietly(command: &mut Command) -> Result {
+    let output = command.output().map_err(|error| format!("{} did not start: {error}.", shown(command)))?;
+    if output.status.success() {
+        return Ok(());
+    }
+    print!("{}", String::from_utf8_lossy(&output.stdout));
+    eprint!("{}", String::from_utf8_lossy(&output.stderr));
+    Err(format!("{} failed ({}).", shown(command), output.status))
+}
+
 /// The command as one would type it, with the program's name instead of its path.
 fn shown(command: &Command) -> String {
     let program = std::path::Path::new(command.get_program());

@@ -165,11 +165,13 @@ fn install(what: &str, managers: &[(&str, &[&str])]) -> String {
         command
     };
     let result = match *manager {
-        "apt-get" => steps::run(start().args(["update", "-qq"])).and_then(|()| {
-            steps::run(start().args(["install", "-y", "-qq", "--no-install-recommends"]).args(*packages))
+        "apt-get" => steps::run_quietly(start().args(["update", "-qq"])).and_then(|()| {
+            steps::run_quietly(
+                start().args(["install", "-y", "-qq", "--no-install-recommends"]).args(*packages),
+            )
         }),
-        "pacman" => steps::run(start().args(["-S", "--noconfirm", "--needed"]).args(*packages)),
-        _ => steps::run(start().args(["install", "-y"]).args(*packages)),
+        "pacman" => steps::run_quietly(start().args(["-S", "--noconfirm", "--needed"]).args(*packages)),
+        _ => steps::run_quietly(start().args(["install", "-y"]).args(*packages)),
     };
     match result {
         Ok(()) => String::new(),
