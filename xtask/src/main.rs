@@ -11,6 +11,7 @@ mod steps;
 mod tools;
 mod watch;
 
+use std::num::NonZero;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -42,11 +43,11 @@ fn main() -> ExitCode {
         }
         [unknown, ..] => return refuse(&format!("There is no command `{unknown}`.")),
     };
-    let Ok(port) = words.get(2).unwrap_or(&server::USUAL_PORT).parse() else {
+    let Ok(port) = words.get(2).unwrap_or(&server::USUAL_PORT).parse::<NonZero<u16>>() else {
         return refuse(&format!("`{}` is not a port: 1 to 65535.", words[2]));
     };
 
-    match go_to_root().and_then(|()| work(port)) {
+    match go_to_root().and_then(|()| work(port.get())) {
         Ok(()) => ExitCode::SUCCESS,
         Err(sentence) => {
             eprintln!("\n{sentence}");

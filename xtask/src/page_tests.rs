@@ -32,7 +32,7 @@ pub fn run() -> Result {
     steps::run(tools::cargo().args(["test", "--package", "page-tests", "--no-run"]))?;
 
     let listener = server::listen(0)?;
-    let page = server::address(&listener)?;
+    let page = server::address(server::port(&listener)?);
     server::start(listener, Path::new(build::DIST));
     let driver = Driver::start(&browser.driver)?;
 

@@ -16,7 +16,7 @@ const PORTS_TRIED: u16 = 100;
 /// More than a browser sends for a page without cookies.
 const LONGEST_REQUEST: u64 = 32 * 1024;
 
-/// Takes the wanted port, or the next free one.
+/// Takes the wanted port, or the next free one; 0 takes any.
 pub fn listen(wanted: u16) -> Result<TcpListener> {
     for port in wanted..=wanted.saturating_add(PORTS_TRIED) {
         match TcpListener::bind((Ipv4Addr::LOCALHOST, port)) {
@@ -31,11 +31,17 @@ pub fn listen(wanted: u16) -> Result<TcpListener> {
     ))
 }
 
-/// Where the listener is reached.
-pub fn address(listener: &TcpListener) -> Result<String> {
-    let address =
-        listener.local_addr().map_err(|error| format!("The server's own address is not known: {error}."))?;
-    Ok(format!("http://{address}/"))
+/// The port that the listener took.
+pub fn port(listener: &TcpListener) -> Result<u16> {
+    let address = listener.local_addr();
+    address
+        .map(|address| address.port())
+        .map_err(|error| format!("The server's own port is not known: {error}."))
+}
+
+/// Where the server on this port is reached.
+pub fn address(port: u16) -> String {
+    format!("http://{}:{port}/", Ipv4Addr::LOCALHOST)
 }
 
 /// Serves the folder in threads of its own until the program ends.

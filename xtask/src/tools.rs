@@ -104,7 +104,9 @@ pub fn browser() -> Result<Browser> {
 
 fn find_chromium() -> Option<PathBuf> {
     named("BUSLENS_CHROMIUM")
-        .or_else(|| on_path(&["chromium", "chromium-browser", "google-chrome", "chrome"]))
+        .or_else(|| {
+            on_path(&["chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome"])
+        })
         .or_else(|| {
             let mut usual = vec![
                 PathBuf::from("/Applications/Google Chrome.app/Contents/MacOS/Google Chrome"),

@@ -15,15 +15,16 @@ const WATCHED: &[&str] = &["src", "style", "index.html", "Cargo.toml", "bundle/s
 /// every system and file system, and needs no library.
 const PAUSE: Duration = Duration::from_millis(300);
 
-pub fn serve(port: u16) -> Result {
+pub fn serve(wanted: u16) -> Result {
     let mut built_from = look();
     build::run()?;
 
-    let listener = server::listen(port)?;
-    let address = server::address(&listener)?;
-    if !address.ends_with(&format!(":{port}/")) {
-        println!("Port {port} is taken; serving on another one instead.");
+    let listener = server::listen(wanted)?;
+    let port = server::port(&listener)?;
+    if port != wanted {
+        println!("Port {wanted} is taken; serving on {port} instead.");
     }
+    let address = server::address(port);
     server::start(listener, Path::new(build::DIST));
     println!("Buslens is at {address} and is rebuilt after each change. Ctrl+C ends this.");
 
