@@ -4,5 +4,5 @@
 mod guess;
 mod pair;
 
-pub use guess::{Guess, direction};
+pub use guess::{Certainty, Guess, direction};
 pub use pair::Pairing;

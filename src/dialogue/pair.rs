@@ -35,11 +35,6 @@ impl Pairing {
     pub fn waiting(&self) -> Option<usize> {
         self.waiting.as_ref().map(|waiting| waiting.index)
     }
-
-    /// Something came that is no telegram of this conversation: nobody waits any longer.
-    pub fn forget(&mut self) {
-        self.waiting = None;
-    }
 }
 
 #[cfg(test)]

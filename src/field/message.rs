@@ -27,6 +27,14 @@ impl Message {
         Self { template, arguments: Vec::new() }
     }
 
+    /// "1 byte", "3 bytes".
+    pub fn bytes(count: usize) -> Self {
+        match count {
+            1 => Self::term("1 byte"),
+            _ => crate::message!("{n} bytes", n = count),
+        }
+    }
+
     /// The message in English with a capital first letter, to stand by itself.
     pub fn sentence(&self) -> String {
         let text = self.to_string();

@@ -13,8 +13,6 @@ pub use problem::{Problem, Severity};
 pub use spec::{Format, Name, Role, Spec};
 pub use value::{Check, Value, hex, hex_value};
 
-use crate::message;
-
 /// A run of bytes: of a telegram, or of the text that it was read from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Span {
@@ -95,18 +93,7 @@ impl Field {
 
     /// The field's name in this telegram: "Quantity", "Register 215", "Register +2".
     pub fn label(&self) -> Message {
-        Self::numbered(self.spec.label, self.number)
-    }
-
-    /// A label with its number, as [`Field::label`] and the form's entries show it.
-    pub fn numbered(label: &'static str, number: Option<Numbering>) -> Message {
-        match number {
-            None => Message::term(label),
-            Some(Numbering::At(n)) => message!("{label} {n}", label = Argument::Term(label), n = n),
-            Some(Numbering::Offset(n)) => {
-                message!("{label} +{n}", label = Argument::Term(label), n = n)
-            }
-        }
+        self.spec.numbered(self.number)
     }
 
     /// The value as a person writes it; empty for groups.
@@ -116,7 +103,7 @@ impl Field {
 
     /// What the value means, where there is more to say than the value itself.
     pub fn meaning(&self) -> Option<Message> {
-        self.value.meaning(self.spec, self.children.len())
+        self.value.meaning(self.spec)
     }
 
     /// Calls `visit` for this field and all below it, parents first.

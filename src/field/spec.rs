@@ -1,3 +1,6 @@
+use super::{Argument, Message, Numbering, hex_value};
+use crate::message;
+
 /// What a field is, in every telegram: its names, its limits, what its values are called.
 ///
 /// A spec is a constant beside the telegram it belongs to:
@@ -25,6 +28,8 @@ pub struct Spec {
     pub note: &'static str,
     /// Document and section.
     pub source: &'static str,
+    /// The list's items are numbered as the device's manual does: `5F32h`.
+    pub hex_numbers: bool,
 }
 
 /// A value with a name of its own.
@@ -83,6 +88,7 @@ impl Spec {
             names: &[],
             note: "",
             source: "",
+            hex_numbers: false,
         }
     }
 
@@ -119,6 +125,25 @@ impl Spec {
     pub const fn source(mut self, source: &'static str) -> Self {
         self.source = source;
         self
+    }
+
+    pub const fn hex_numbers(mut self) -> Self {
+        self.hex_numbers = true;
+        self
+    }
+
+    /// The label of a list's item: "Register 215", or "Register +2" where the first one's number
+    /// is not known.
+    pub fn numbered(&self, number: Option<Numbering>) -> Message {
+        let label = Argument::Term(self.label);
+        match number {
+            None => Message::term(self.label),
+            Some(Numbering::At(n)) if self.hex_numbers => {
+                message!("{label} {n}", label = label, n = hex_value(n, 2))
+            }
+            Some(Numbering::At(n)) => message!("{label} {n}", label = label, n = n),
+            Some(Numbering::Offset(n)) => message!("{label} +{n}", label = label, n = n),
+        }
     }
 
     /// What `value` is called, if it has a name.

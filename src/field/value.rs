@@ -82,7 +82,7 @@ impl Value {
         }
     }
 
-    pub(super) fn meaning(&self, spec: &'static Spec, children: usize) -> Option<Message> {
+    pub(super) fn meaning(&self, spec: &'static Spec) -> Option<Message> {
         match *self {
             Self::Number { raw, width } => match spec.name(raw) {
                 Some(name) => Some(Message::term(name.label)),
@@ -94,12 +94,13 @@ impl Value {
                 Some(message!("does not match: computed {computed}", computed = check.computed_bytes()))
             }
             Self::Missing { width, found: 0 } => {
-                Some(message!("missing, {width} bytes expected", width = width))
+                Some(message!("missing, {bytes} expected", bytes = Message::bytes(width)))
             }
-            Self::Missing { width, found } => {
-                Some(message!("cut off, {found} of {width} bytes there", found = found, width = width))
-            }
-            Self::Group if children > 0 => None,
+            Self::Missing { width, found } => Some(message!(
+                "cut off, {found} of {width} there",
+                found = found,
+                width = Message::bytes(width)
+            )),
             Self::Group | Self::Bytes => None,
         }
     }
@@ -163,7 +164,7 @@ mod tests {
     #[test]
     fn addresses_are_shown_in_all_notations() {
         let spec = &const { Spec::new("start", "Start").format(Format::Reference('4')) };
-        let meaning = |raw| Value::Number { raw, width: 2 }.meaning(spec, 0).unwrap().to_string();
+        let meaning = |raw| Value::Number { raw, width: 2 }.meaning(spec).unwrap().to_string();
         assert_eq!(meaning(200), "00C8h, register 201, reference 40201");
         assert_eq!(meaning(9998), "270Eh, register 9999, reference 49999");
         assert_eq!(meaning(9999), "270Fh, register 10000, reference 410000");
@@ -181,7 +182,7 @@ mod tests {
     #[test]
     fn registers_are_shown_signed_where_that_differs() {
         let spec = &const { Spec::new("value", "Register").format(Format::Register) };
-        let meaning = |raw| Value::Number { raw, width: 2 }.meaning(spec, 0).unwrap().to_string();
+        let meaning = |raw| Value::Number { raw, width: 2 }.meaning(spec).unwrap().to_string();
         assert_eq!(meaning(128), "0080h");
         assert_eq!(meaning(0xFFFF), "FFFFh, signed \u{2212}1");
         assert_eq!(meaning(0x8000), "8000h, signed \u{2212}32768");

@@ -12,11 +12,14 @@ use crate::walk::{CRC_16_MODBUS, Telegram, Walk, Walker};
 /// The unit that everybody on the line listens to.
 pub const BROADCAST: u8 = 0;
 
+/// The bytes around the PDU: unit and CRC.
+pub const AROUND: usize = 3;
+
 /// The fewest bytes of a frame: unit, function code, CRC.
-pub const SHORTEST: usize = 4;
+pub const SHORTEST: usize = 1 + AROUND;
 
 /// The most bytes of a frame.
-pub const LONGEST: usize = 1 + LONGEST_PDU + 2;
+pub const LONGEST: usize = LONGEST_PDU + AROUND;
 
 /// A Modbus RTU frame.
 pub struct Rtu {
@@ -34,6 +37,19 @@ impl Rtu {
     /// The bytes of the PDU in a frame of `bytes`; empty where the frame is too short for one.
     pub fn pdu_bytes(bytes: &[u8]) -> &[u8] {
         if bytes.len() < SHORTEST { &[] } else { &bytes[1..bytes.len() - 2] }
+    }
+
+    /// Whether the last two bytes are the CRC of those before them.
+    ///
+    /// ```
+    /// use buslens::frame::modbus_rtu::Rtu;
+    ///
+    /// assert!(Rtu::check_matches(&[0x01, 0x03, 0x00, 0xC8, 0x00, 0x03, 0x84, 0x35]));
+    /// ```
+    pub fn check_matches(bytes: &[u8]) -> bool {
+        bytes.split_last_chunk::<2>().is_some_and(|(covered, check)| {
+            CRC_16_MODBUS.wire(covered) == u64::from(u16::from_be_bytes(*check))
+        })
     }
 
     /// The telegram in one sentence.
@@ -113,5 +129,7 @@ static UNIT: Spec = Spec::new("unit", "Unit address")
 
 static CRC: Spec = Spec::new("crc", "CRC")
     .role(Role::Check)
-    .note("CRC-16/MODBUS over all bytes before it, low byte first. A unit ignores a frame that does not match.")
+    .note(
+        "CRC-16/MODBUS over all bytes before it, low byte first. A unit ignores a frame that does not match.",
+    )
     .source("Modbus over serial line V1.02, 2.5.1.2");

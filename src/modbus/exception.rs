@@ -80,7 +80,11 @@ static CODE: Spec = Spec::new("exception", "Exception code")
         },
         Name { value: 6, label: "server busy", note: "The server works on something long. Try again later." },
         Name { value: 8, label: "memory parity error", note: "The server found its file memory damaged." },
-        Name { value: 10, label: "gateway path unavailable", note: "The gateway is set up wrong or overloaded." },
+        Name {
+            value: 10,
+            label: "gateway path unavailable",
+            note: "The gateway is set up wrong or overloaded.",
+        },
         Name {
             value: 11,
             label: "gateway target does not respond",
@@ -101,7 +105,11 @@ static CODE: Spec = Spec::new("exception", "Exception code")
             label: "parameter is write-protected (KEB)",
             note: "The inverter parameter can only be read, or not be written in this state.",
         },
-        Name { value: 67, label: "wrong password (KEB)", note: "The parameter needs a higher password level." },
+        Name {
+            value: 67,
+            label: "wrong password (KEB)",
+            note: "The parameter needs a higher password level.",
+        },
     ]);
 
 /// Codes 1 to 11; KEB's 64 to 67 are in the F5 Modbus operator manual, section 4.2.

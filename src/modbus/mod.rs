@@ -68,7 +68,7 @@ impl Kind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Length {
     Fixed(usize),
-    /// The byte at `at` counts the bytes after it, of which there are a multiple of `unit`.
+    /// The byte at `at` counts the bytes after it, of which there are some, a multiple of `unit`.
     Counted {
         at: usize,
         unit: usize,
@@ -92,7 +92,8 @@ impl Length {
         match self {
             Self::Fixed(length) => bytes.len() == length,
             Self::Counted { at, unit } => {
-                self.of(bytes) == Some(bytes.len()) && (bytes.len() - at - 1).is_multiple_of(unit)
+                let counted = bytes.len().saturating_sub(at + 1);
+                self.of(bytes) == Some(bytes.len()) && counted > 0 && counted.is_multiple_of(unit)
             }
             Self::Open => true,
         }

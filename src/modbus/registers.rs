@@ -2,7 +2,7 @@
 //! and how many fit is in a [`Table`].
 
 use super::{Access, Body, Server};
-use crate::field::{Argument, Direction, Format, Message, Role, Severity, Spec};
+use crate::field::{Argument, Direction, Format, Message, Role, Severity, Spec, hex_value};
 use crate::message;
 use crate::walk::{Telegram, Walk, Walker};
 
@@ -42,7 +42,9 @@ impl Table {
             write_quantity: QUANTITY
                 .limits(1, 123)
                 .note("How many registers are written. More than 123 do not fit into the request."),
-            byte_count: BYTE_COUNT.note("How many bytes of values follow: two for each register."),
+            byte_count: BYTE_COUNT
+                .limits(2, 250)
+                .note("How many bytes of values follow: two for each register."),
             values: VALUES,
             value: Spec::new("value", "Register")
                 .format(Format::Register)
@@ -59,7 +61,7 @@ impl Table {
     /// An address in the notation of the table: `200` or `2000h`.
     fn address(&self, address: u16) -> String {
         match self.start.format {
-            Format::HexAddress => crate::field::hex_value(address.into(), 2),
+            Format::HexAddress => hex_value(address.into(), 2),
             _ => address.to_string(),
         }
     }
@@ -73,6 +75,20 @@ impl Table {
             }
             _ => message!("{from}", from = self.address(start)),
         }
+    }
+
+    /// Values in a sentence: the first few, in the notation of the table.
+    fn listed(&self, values: &[u32]) -> String {
+        const SHOWN: usize = 6;
+        let shown = values.iter().take(SHOWN).map(|value| match self.start.format {
+            Format::HexAddress => hex_value(u64::from(*value), self.width),
+            _ => value.to_string(),
+        });
+        let mut text = shown.collect::<Vec<_>>().join(", ");
+        if values.len() > SHOWN {
+            text.push_str(", …");
+        }
+        text
     }
 
     fn walk_value(&self, w: &mut dyn Walker, spec: &'static Spec, value: &mut u32) -> Walk {
@@ -98,16 +114,6 @@ impl Table {
             );
         }
     }
-}
-
-/// Values in a sentence: the first few, and how many there are.
-fn listed(values: &[u32]) -> String {
-    const SHOWN: usize = 6;
-    let mut text = values.iter().take(SHOWN).map(u32::to_string).collect::<Vec<_>>().join(", ");
-    if values.len() > SHOWN {
-        text.push_str(", …");
-    }
-    text
 }
 
 const QUANTITY: Spec = Spec::new("quantity", "Quantity").role(Role::Count);
@@ -185,15 +191,16 @@ impl Body for ReadResponse {
             Some(start) => message!(
                 "{who} answers: {registers} {range} = {values}",
                 who = who.name(),
-                registers = Argument::Term(if self.values.len() == 1 { self.table.one } else { self.table.many }),
+                registers =
+                    Argument::Term(if self.values.len() == 1 { self.table.one } else { self.table.many }),
                 range = self.table.range(start, self.values.len()),
-                values = listed(&self.values)
+                values = self.table.listed(&self.values)
             ),
             None => message!(
                 "{who} answers with {registers}: {values}",
                 who = who.name(),
                 registers = self.table.amount(self.values.len()),
-                values = listed(&self.values)
+                values = self.table.listed(&self.values)
             ),
         }
     }
@@ -239,7 +246,7 @@ impl Body for WriteSingle {
         let who = who.name();
         let register = Argument::Term(self.table.one);
         let address = self.table.address(self.address);
-        let value = self.value[0];
+        let value = self.table.listed(&self.value);
         match self.direction {
             Direction::Request => message!(
                 "write {value} to {register} {address} of {who}",
@@ -297,7 +304,7 @@ impl Body for WriteRequest {
             who = who.name(),
             registers = self.table.amount(self.values.len()),
             start = self.table.address(self.start),
-            values = listed(&self.values)
+            values = self.table.listed(&self.values)
         )
     }
 

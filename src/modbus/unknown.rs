@@ -34,14 +34,11 @@ impl Telegram for Unknown {
 
 impl Body for Unknown {
     fn meaning(&self, who: Server) -> Message {
-        match self.data.len() {
-            1 => message!("{who}: a function that Buslens does not know, with 1 byte of data", who = who.name()),
-            n => message!(
-                "{who}: a function that Buslens does not know, with {n} bytes of data",
-                who = who.name(),
-                n = n
-            ),
-        }
+        message!(
+            "{who}: a function that Buslens does not know, with {bytes} of data",
+            who = who.name(),
+            bytes = Message::bytes(self.data.len())
+        )
     }
 }
 

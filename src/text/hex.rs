@@ -55,8 +55,7 @@ pub enum Style {
 }
 
 impl Style {
-    const ALL: [Self; 5] =
-        [Self::Separated, Self::Contiguous, Self::Prefixed, Self::Suffixed, Self::Escaped];
+    const ALL: [Self; 5] = [Self::Separated, Self::Contiguous, Self::Prefixed, Self::Suffixed, Self::Escaped];
 
     pub const fn name(self) -> &'static str {
         match self {
@@ -96,13 +95,19 @@ pub fn read(text: &str) -> Reading {
         };
         scan.run();
         if open.continues() {
-            scan.remark("bracket-open", Severity::Warning, span, message!("a bracket opened here is not closed"));
+            scan.remark(
+                "bracket-open",
+                Severity::Warning,
+                span,
+                message!("a bracket opened here is not closed"),
+            );
         }
         if !scan.line.bytes.is_empty() || !scan.line.remarks.is_empty() {
             lines.push(scan.line);
         }
     }
-    let most = Style::ALL.into_iter().zip(styles).filter(|(_, count)| *count > 0).max_by_key(|(_, count)| *count);
+    let most =
+        Style::ALL.into_iter().zip(styles).filter(|(_, count)| *count > 0).max_by_key(|(_, count)| *count);
     Reading { lines, style: most.map(|(style, _)| style) }
 }
 
@@ -130,10 +135,7 @@ struct Letter {
 }
 
 fn letters(text: &str, span: Span) -> Vec<Letter> {
-    text[span.from..span.to]
-        .char_indices()
-        .map(|(at, c)| Letter { at: span.from + at, c: fold(c) })
-        .collect()
+    text[span.from..span.to].char_indices().map(|(at, c)| Letter { at: span.from + at, c: fold(c) }).collect()
 }
 
 /// The plain character for one that word processors, web pages and East Asian keyboards put in its
@@ -270,8 +272,12 @@ impl Scan<'_> {
         let message = match text.as_str() {
             "O" | "o" => message!("this is the letter O, not a zero: hex digits are 0 to 9 and A to F"),
             "l" | "I" => message!("this is a letter, not a one: hex digits are 0 to 9 and A to F"),
-            _ if to - from == 1 => message!("“{text}” is not a hex digit: 0 to 9 and A to F are", text = text),
-            _ => message!("“{text}” is not hex: expected bytes of two digits, 0 to 9 and A to F", text = text),
+            _ if to - from == 1 => {
+                message!("“{text}” is not a hex digit: 0 to 9 and A to F are", text = text)
+            }
+            _ => {
+                message!("“{text}” is not hex: expected bytes of two digits, 0 to 9 and A to F", text = text)
+            }
         };
         self.remark("not-hex", Severity::Error, self.span(from, to), message);
     }
@@ -281,7 +287,8 @@ impl Scan<'_> {
         let Some(equals) = self.letters.iter().position(|letter| letter.c == '=') else { return 0 };
         let declared = &self.letters[..equals];
         let names = declared.iter().any(|letter| letter.c.is_alphabetic() && !letter.c.is_ascii_hexdigit());
-        let mut value = self.letters[equals + 1..].iter().map(|letter| letter.c).skip_while(|c| c.is_whitespace());
+        let mut value =
+            self.letters[equals + 1..].iter().map(|letter| letter.c).skip_while(|c| c.is_whitespace());
         let opens = value.next().is_some_and(|c| matches!(c, '{' | '[' | '(' | '"' | '\'' | '&'));
         if names || opens { equals + 1 } else { 0 }
     }
@@ -460,10 +467,7 @@ impl Scan<'_> {
             self.pair(at, at, (at + 2).min(to), style);
         }
         if even < to {
-            let message = message!(
-                "{n} digits: one is left over, since a byte has two",
-                n = to - from
-            );
+            let message = message!("{n} digits: one is left over, since a byte has two", n = to - from);
             self.remark("odd-digits", Severity::Error, self.span(even, to), message);
         }
     }
@@ -516,8 +520,31 @@ fn is_separator(c: char) -> bool {
     c.is_whitespace()
         || matches!(
             c,
-            ',' | ';' | ':' | '.' | '-' | '_' | '|' | '/' | '(' | ')' | '[' | ']' | '{' | '}' | '<' | '>' | '=' | '+'
-                | '*' | '&' | '\\' | '`' | '~' | '^' | '"' | '\''
+            ',' | ';'
+                | ':'
+                | '.'
+                | '-'
+                | '_'
+                | '|'
+                | '/'
+                | '('
+                | ')'
+                | '['
+                | ']'
+                | '{'
+                | '}'
+                | '<'
+                | '>'
+                | '='
+                | '+'
+                | '*'
+                | '&'
+                | '\\'
+                | '`'
+                | '~'
+                | '^'
+                | '"'
+                | '\''
         )
 }
 
@@ -649,7 +676,10 @@ mod tests {
         assert_eq!(marked("01 送信 03"), ("01 03".into(), vec![("not-hex", "送信")]));
         assert_eq!(marked("01 03 ?"), ("01 03".into(), vec![("not-hex", "?")]));
         assert_eq!(marked("hello"), (String::new(), vec![("not-hex", "hello")]));
-        assert_eq!(marked("0x01 0xZZ 03"), ("01 03".into(), vec![("digit-missing", "0x"), ("not-hex", "ZZ")]));
+        assert_eq!(
+            marked("0x01 0xZZ 03"),
+            ("01 03".into(), vec![("digit-missing", "0x"), ("not-hex", "ZZ")])
+        );
     }
 
     #[test]

@@ -23,19 +23,39 @@ pub struct Entry {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Content {
     /// A number of `width` bytes, as the person writes it: `200`, `0xC8`, `C8h`, `-1`.
-    Number { width: usize, text: String },
+    Number {
+        width: usize,
+        text: String,
+    },
     /// The choice that made the form what it is: shown, not edited.
-    Choice { raw: u64, chosen: &'static Spec },
+    Choice {
+        raw: u64,
+        chosen: &'static Spec,
+    },
     /// A number that follows from the others. `text` is empty, or what to write instead.
-    Computed { width: usize, computed: u64, text: String },
+    Computed {
+        width: usize,
+        computed: u64,
+        text: String,
+    },
     /// Bytes in hex.
-    Bytes { text: String },
+    Bytes {
+        text: String,
+    },
     /// A list that can grow and shrink.
-    List { items: Vec<Vec<Entry>> },
-    Group { entries: Vec<Entry> },
+    List {
+        items: Vec<Vec<Entry>>,
+    },
+    Group {
+        entries: Vec<Entry>,
+    },
     /// What a faulty telegram has too much (hex) or how many bytes it keeps (a number).
-    Extra { text: String },
-    Cut { text: String },
+    Extra {
+        text: String,
+    },
+    Cut {
+        text: String,
+    },
 }
 
 /// An entry that does not fit.
@@ -103,9 +123,9 @@ fn parse_bytes(text: &str) -> Result<Vec<u8>, Message> {
     let digits: Vec<u8> = text.bytes().filter(|byte| !byte.is_ascii_whitespace()).collect();
     let byte = |pair: &[u8]| u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok();
     let all_hex = digits.iter().all(u8::is_ascii_hexdigit) && digits.len().is_multiple_of(2);
-    all_hex
-        .then(|| digits.chunks(2).map_while(byte).collect())
-        .ok_or_else(|| message!("“{text}” is not hex: write two digits for each byte", text = text.to_owned()))
+    all_hex.then(|| digits.chunks(2).map_while(byte).collect()).ok_or_else(|| {
+        message!("“{text}” is not hex: write two digits for each byte", text = text.to_owned())
+    })
 }
 
 /// A number as the form first shows it.
@@ -189,13 +209,7 @@ impl Walker for Show<'_> {
         Ok(())
     }
 
-    fn items(
-        &mut self,
-        spec: &'static Spec,
-        items: &mut dyn Items,
-        _: usize,
-        first: Option<u64>,
-    ) -> Walk {
+    fn items(&mut self, spec: &'static Spec, items: &mut dyn Items, _: usize, first: Option<u64>) -> Walk {
         let list_path = self.path.clone();
         let depth = self.path.enter(spec.key);
         let mut shown = Vec::new();

@@ -79,13 +79,8 @@ pub trait Walker {
     fn bytes(&mut self, spec: &'static Spec, bytes: &mut Vec<u8>) -> Walk;
 
     /// `count` items of the same kind; `first` is the number of the first one, if that is known.
-    fn items(
-        &mut self,
-        spec: &'static Spec,
-        items: &mut dyn Items,
-        count: usize,
-        first: Option<u64>,
-    ) -> Walk;
+    fn items(&mut self, spec: &'static Spec, items: &mut dyn Items, count: usize, first: Option<u64>)
+    -> Walk;
 
     /// Fields that belong together under one name.
     fn within(&mut self, spec: &'static Spec, part: Part<'_>) -> Walk;

@@ -1,9 +1,7 @@
 use super::{
     Algorithm, Deviation, Deviations, Items, Part, Path, Stop, Telegram, WINDOW, Walk, Walker, write,
 };
-use crate::field::{
-    Argument, Check, Field, Message, Numbering, Problem, Role, Severity, Span, Spec, Value,
-};
+use crate::field::{Argument, Check, Field, Message, Numbering, Problem, Role, Severity, Span, Spec, Value};
 use crate::message;
 
 /// Reads `bytes` into `telegram` and returns the tree of its fields.
@@ -81,16 +79,15 @@ impl Reader<'_> {
         let label = Argument::Term(spec.label);
         let message = match found {
             0 => message!(
-                "{label} is missing: the telegram ends at byte {at}, {width} more bytes belong here",
+                "{label} is missing: {bytes} more should follow here",
                 label = label,
-                at = from,
-                width = width
+                bytes = Message::bytes(width)
             ),
             _ => message!(
-                "{label} is cut off: {found} of its {width} bytes are there",
+                "{label} is cut off: {found} of its {bytes} are there",
                 label = label,
                 found = found,
-                width = width
+                bytes = Message::bytes(width)
             ),
         };
         self.problem(Problem::error("truncated", span, message));
@@ -152,10 +149,7 @@ impl Reader<'_> {
             field.problems.push(Problem::error(
                 "unexpected-bytes",
                 left,
-                match left.len() {
-                    1 => message!("1 byte more than the telegram should have"),
-                    n => message!("{n} bytes more than the telegram should have", n = n),
-                },
+                message!("{bytes} more than the telegram should have", bytes = Message::bytes(left.len())),
             ));
             self.fields.push(field);
             self.wire.set(path, Deviation::Extra(left.of(self.bytes).to_vec()));

@@ -12,8 +12,8 @@ use crate::field::{Format, Role, Spec};
 /// The F5 operator's registers, read as 32-bit values. The manual gives no largest number; the
 /// limits are what a frame of 256 bytes can hold.
 static LONG_REGISTERS: Table = Table {
-    one: "32-bit register",
-    many: "32-bit registers",
+    one: "long register",
+    many: "long registers",
     width: 4,
     start: Spec::new("start", "Starting address")
         .short("Start")
@@ -26,11 +26,13 @@ static LONG_REGISTERS: Table = Table {
     byte_count: Spec::new("byte_count", "Byte count")
         .short("Bytes")
         .role(Role::Count)
+        .limits(4, 248)
         .note("How many bytes of values follow: four for each.")
         .source(SOURCE),
     values: Spec::new("values", "Values"),
     value: Spec::new("value", "Register")
         .format(Format::Register)
+        .hex_numbers()
         .note("A 32-bit value, most significant byte first.")
         .source(SOURCE),
 };

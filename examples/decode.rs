@@ -1,0 +1,101 @@
+//! Prints the telegrams of a text as JSON Lines: one object for each telegram, then a summary.
+
+use std::fmt::Write as _;
+use std::io::{Read, Write as _};
+use std::process::ExitCode;
+
+use buslens::field::Direction;
+use buslens::tool::{Options, decode, json};
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(text) => {
+            // A closed pipe, as of `decode … | head`, is the reader's choice.
+            let _ = std::io::stdout().write_all(text.as_bytes());
+            ExitCode::SUCCESS
+        }
+        Err(reason) => {
+            eprintln!("decode: {reason}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn run() -> Result<String, String> {
+    let mut arguments = std::env::args().skip(1);
+    let mut options = Options::default();
+    let mut fields = false;
+    let mut file = None;
+    while let Some(argument) = arguments.next() {
+        let (name, mut value) = match argument.split_once('=') {
+            Some((name, value)) if name.starts_with("--") => (name.to_owned(), Some(value.to_owned())),
+            _ => (argument.clone(), None),
+        };
+        let mut choice = |allowed: &[&'static str]| {
+            let value = value.take().or_else(|| arguments.next()).unwrap_or_default();
+            let known = allowed.iter().copied().find(|word| *word == value);
+            known.ok_or_else(|| format!("{name} takes {}, not “{value}”", either(allowed)))
+        };
+        match name.as_str() {
+            "--help" | "-h" => return Ok(HELP.to_owned()),
+            "--fields" => fields = true,
+            "--protocol" => _ = choice(&["auto", "modbus-rtu"])?,
+            "--device" => _ = choice(&["none"])?,
+            "--input" => _ = choice(&["auto", "text"])?,
+            "--language" => _ = choice(&["en"])?,
+            "--direction" => {
+                options.direction = match choice(&["auto", "request", "response"])? {
+                    "request" => Some(Direction::Request),
+                    "response" => Some(Direction::Response),
+                    _ => None,
+                }
+            }
+            _ if argument.starts_with('-') && argument != "-" => {
+                return Err(format!("there is no option {argument}; --help lists them"));
+            }
+            _ if file.is_none() => file = Some(argument),
+            _ => return Err(format!("one file at a time: “{argument}” is one too many")),
+        }
+    }
+    json::lines(&decode(&input(file.as_deref())?, options), fields).map_err(|error| error.to_string())
+}
+
+/// The text of the file, or of standard input. Bytes that are no UTF-8 are shown as �, and are
+/// then told as not hex in their place.
+fn input(file: Option<&str>) -> Result<String, String> {
+    let bytes = match file {
+        None | Some("-") => {
+            let mut bytes = Vec::new();
+            std::io::stdin()
+                .read_to_end(&mut bytes)
+                .map_err(|error| format!("standard input cannot be read: {error}"))?;
+            bytes
+        }
+        Some(path) => std::fs::read(path).map_err(|error| format!("{path} cannot be read: {error}"))?,
+    };
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+/// "a, b or c".
+fn either(words: &[&str]) -> String {
+    let mut text = String::new();
+    for (index, word) in words.iter().enumerate() {
+        let between = match index {
+            0 => "",
+            _ if index + 1 == words.len() => " or ",
+            _ => ", ",
+        };
+        // Writing to a string cannot fail.
+        let _ = write!(text, "{between}{word}");
+    }
+    text
+}
+
+const HELP: &str = "\
+Prints the telegrams of a text as JSON Lines, and a summary at the end.
+
+decode [--protocol auto|modbus-rtu] [--device none] [--direction auto|request|response]
+       [--input auto|text] [--language en] [--fields] [FILE]
+
+Without FILE, or with -, it reads standard input. --fields adds the tree of fields.
+";

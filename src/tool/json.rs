@@ -1,0 +1,180 @@
+//! Telegrams as JSON Lines: one object for each telegram, then one summary.
+
+use serde::Serialize;
+
+use super::{Certainty, Detail, Report, Telegram, Verdict};
+use crate::field::{Field, hex};
+
+/// One telegram. Keys that do not apply are left out.
+#[derive(Debug, Serialize)]
+pub struct Row {
+    /// Running number from 1.
+    pub n: usize,
+    /// First line of the text, from 1.
+    pub line: usize,
+    pub length: usize,
+    pub protocol: &'static str,
+    /// `request`, `response` or `unknown`.
+    pub direction: &'static str,
+    pub bytes: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<u8>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub function: Option<u8>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub exception: Option<u8>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub check: Option<Check>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub start: Option<u16>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub count: Option<usize>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub values: Vec<u32>,
+    pub meaning: String,
+    /// The number of the request that this answers, or of its response.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pair: Option<usize>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub problems: Vec<Problem>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fields: Option<Vec<Node>>,
+}
+
+#[derive(Debug, Serialize)]
+pub struct Check {
+    pub kind: &'static str,
+    pub ok: bool,
+    pub found: String,
+    pub computed: String,
+}
+
+/// A problem of the telegram, or (without a span) of the text it was written in.
+#[derive(Debug, Serialize)]
+pub struct Problem {
+    pub code: &'static str,
+    pub text: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub span: Option<[usize; 2]>,
+}
+
+/// A field with those within it.
+#[derive(Debug, Serialize)]
+pub struct Node {
+    pub key: &'static str,
+    pub label: String,
+    pub span: [usize; 2],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub value: Option<u64>,
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub text: String,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub fields: Vec<Node>,
+}
+
+/// The last object.
+#[derive(Debug, Serialize)]
+pub struct Last {
+    pub summary: Summary,
+}
+
+#[derive(Debug, Serialize)]
+pub struct Summary {
+    pub telegrams: usize,
+    pub check_failed: usize,
+    pub pairs: usize,
+    pub unanswered: usize,
+    pub unpaired: usize,
+    pub lines: usize,
+    pub lines_not_understood: usize,
+    pub bytes_discarded: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub layout: Option<&'static str>,
+}
+
+/// The whole report, a line for each telegram and one for the summary, each with its line end.
+pub fn lines(report: &Report, fields: bool) -> serde_json::Result<String> {
+    let mut text = String::new();
+    for (index, telegram) in report.telegrams.iter().enumerate() {
+        if let Some(detail) = report.detail(index) {
+            text += &serde_json::to_string(&row(index, telegram, detail, fields))?;
+            text.push('\n');
+        }
+    }
+    text += &serde_json::to_string(&last(report))?;
+    text.push('\n');
+    Ok(text)
+}
+
+fn row(index: usize, telegram: &Telegram, detail: Detail, fields: bool) -> Row {
+    let line = &telegram.line;
+    let problems = detail.problems().into_iter().map(|problem| Problem {
+        code: problem.code,
+        text: problem.message.sentence(),
+        span: Some([problem.span.from, problem.span.to]),
+    });
+    let remarks = line.remarks.iter().map(|remark| Problem {
+        code: remark.code,
+        text: remark.message.sentence(),
+        span: None,
+    });
+    Row {
+        n: index + 1,
+        line: line.number,
+        length: line.bytes.len(),
+        protocol: "modbus-rtu",
+        direction: match telegram.guess.certainty {
+            Certainty::Open => "unknown",
+            Certainty::Certain | Certainty::Likely => telegram.guess.direction.key(),
+        },
+        bytes: hex(&line.bytes),
+        unit: detail.unit,
+        function: detail.function,
+        exception: detail.exception,
+        check: detail.check().filter(|_| telegram.verdict != Verdict::Unchecked).map(|check| Check {
+            kind: check.kind,
+            ok: check.ok(),
+            found: check.found_bytes(),
+            computed: check.computed_bytes(),
+        }),
+        start: detail.start,
+        count: detail.count,
+        meaning: detail.meaning.sentence() + ".",
+        pair: telegram.answers.or(telegram.answered_by).map(|index| index + 1),
+        problems: problems.chain(remarks).collect(),
+        fields: fields.then(|| detail.fields.iter().map(node).collect()),
+        values: detail.values,
+    }
+}
+
+fn node(field: &Field) -> Node {
+    let meaning = field.meaning().map(|meaning| meaning.to_string());
+    let parts = [Some(field.value_text()), meaning];
+    let text: Vec<String> = parts.into_iter().flatten().filter(|part| !part.is_empty()).collect();
+    Node {
+        key: field.spec.key,
+        label: field.label().to_string(),
+        span: [field.span.from, field.span.to],
+        value: field.value.raw(),
+        text: text.join(": "),
+        fields: field.children.iter().map(node).collect(),
+    }
+}
+
+fn last(report: &Report) -> Last {
+    let summary = report.summary();
+    Last {
+        summary: Summary {
+            telegrams: summary.telegrams,
+            check_failed: summary.check_failed,
+            pairs: summary.pairs,
+            unanswered: summary.unanswered,
+            unpaired: summary.unpaired,
+            lines: summary.lines,
+            lines_not_understood: summary.lines_not_understood,
+            // Every byte of a line belongs to its telegram.
+            bytes_discarded: 0,
+            layout: report.style.map(|style| style.name()),
+        },
+    }
+}

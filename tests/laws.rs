@@ -1,0 +1,209 @@
+//! What holds for every telegram, whatever its bytes: run over all kinds, in the frame.
+
+use buslens::field::{Direction, Field, Value, leaves, problems};
+use buslens::frame::modbus_rtu::{AROUND, Rtu, SHORTEST};
+use buslens::modbus::{KINDS, Kind, Length, OTHER_KINDS, Pdu};
+use buslens::tool::{Options, Verdict, decode};
+use buslens::walk::{self, Deviations, form, guide};
+use proptest::prelude::*;
+
+fn kinds() -> impl Iterator<Item = &'static Kind> {
+    KINDS.iter().chain(OTHER_KINDS).copied()
+}
+
+fn kind() -> impl Strategy<Value = &'static Kind> {
+    proptest::sample::select(kinds().collect::<Vec<_>>())
+}
+
+fn direction() -> impl Strategy<Value = Direction> {
+    prop_oneof![Just(Direction::Request), Just(Direction::Response)]
+}
+
+/// Bytes of any length, half of them with a known function code.
+fn bytes() -> impl Strategy<Value = Vec<u8>> {
+    let any_bytes = proptest::collection::vec(any::<u8>(), 0..300);
+    (any_bytes, proptest::option::of(kind())).prop_map(|(mut bytes, kind)| {
+        if let (Some(kind), Some(function)) = (kind, bytes.get_mut(1)) {
+            *function = kind.function;
+        }
+        bytes
+    })
+}
+
+fn empty(kind: &'static Kind) -> Rtu {
+    Rtu { unit: 1, pdu: kind.pdu() }
+}
+
+/// A valid telegram of `kind`, random by `seed`.
+fn sample(kind: &'static Kind, seed: u64) -> Rtu {
+    let mut rtu = empty(kind);
+    let mut state = seed;
+    walk::sample(&mut rtu, &mut |most| {
+        // SplitMix64.
+        state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = state;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^= z >> 31;
+        if most == u64::MAX { z } else { z % (most + 1) }
+    });
+    // A broadcast must not read, and 248 to 255 are reserved.
+    rtu.unit = rtu.unit % 247 + 1;
+    rtu
+}
+
+fn write(rtu: &mut Rtu) -> Vec<u8> {
+    walk::write(rtu, &Deviations::default())
+}
+
+fn codes(fields: &[Field]) -> Vec<&'static str> {
+    problems(fields).iter().map(|problem| problem.code).collect()
+}
+
+/// Panics unless the leaves cover 0 to `length` without gap or overlap.
+fn assert_tiled(fields: &[Field], length: usize) {
+    let mut position = 0;
+    for leaf in leaves(fields) {
+        assert_eq!(leaf.span.from, position, "{}", leaf.spec.key);
+        position = leaf.span.to;
+    }
+    assert_eq!(position, length);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(2000) })]
+
+    #[test]
+    fn leaves_tile_any_bytes(bytes in bytes(), direction in direction()) {
+        let mut rtu = Rtu::expect(&bytes, direction);
+        let reading = walk::read(&mut rtu, &bytes);
+        assert_tiled(&reading.fields, bytes.len());
+        // Saying it does not panic either.
+        let _ = rtu.meaning().sentence();
+    }
+
+    /// Any bytes at all are a value with deviations, and come back from it.
+    #[test]
+    fn any_bytes_are_written_again(bytes in bytes(), direction in direction()) {
+        let mut rtu = Rtu::expect(&bytes, direction);
+        let deviations = walk::read(&mut rtu, &bytes).deviations(&mut rtu);
+        prop_assert_eq!(walk::write(&mut rtu, &deviations), bytes);
+    }
+
+    #[test]
+    fn a_valid_telegram_has_no_problems_and_no_deviations(kind in kind(), seed: u64) {
+        let mut rtu = sample(kind, seed);
+        let bytes = write(&mut rtu);
+        let mut read = Rtu::expect(&bytes, kind.direction);
+        let reading = walk::read(&mut read, &bytes);
+        assert_tiled(&reading.fields, bytes.len());
+        let found = codes(&reading.fields);
+        // Start and quantity are drawn one by one, so together they may pass the last address.
+        prop_assert!(found.iter().all(|code| *code == "address-overflow"), "{:?}", found);
+        prop_assert!(reading.deviations(&mut read).is_empty());
+        prop_assert_eq!(write(&mut read), bytes);
+    }
+
+    #[test]
+    fn the_length_rule_agrees_with_the_telegram(kind in kind(), seed: u64) {
+        let bytes = write(&mut sample(kind, seed));
+        prop_assert!(kind.length.fits(Rtu::pdu_bytes(&bytes)));
+        prop_assert_eq!(Rtu::pdu_bytes(&bytes).len() + AROUND, bytes.len());
+    }
+
+    #[test]
+    fn a_form_gives_the_same_telegram(bytes in bytes(), direction in direction()) {
+        let mut rtu = Rtu::expect(&bytes, direction);
+        let deviations = walk::read(&mut rtu, &bytes).deviations(&mut rtu);
+        let shown = form::form(&mut rtu, &deviations);
+        let mut filled = Rtu { unit: 0, pdu: Pdu::expect(rtu.pdu.function, direction) };
+        let entered = form::fill(&mut filled, &shown).expect("a form fills what it was made of");
+        prop_assert_eq!(&form::form(&mut filled, &entered), &shown);
+        prop_assert_eq!(walk::write(&mut filled, &entered), bytes);
+    }
+
+    #[test]
+    fn each_shorter_prefix_says_what_is_missing(kind in kind(), seed: u64, cut: prop::sample::Index) {
+        let bytes = write(&mut sample(kind, seed));
+        let prefix = &bytes[..cut.index(bytes.len())];
+        let mut rtu = Rtu::expect(prefix, kind.direction);
+        let found = codes(&walk::read(&mut rtu, prefix).fields);
+        // Nothing tells how much data an unknown function has.
+        let told = kind.length != Length::Open || prefix.len() < SHORTEST;
+        prop_assert!(!told || found.contains(&"truncated"), "{:?}", found);
+    }
+
+    #[test]
+    fn a_flipped_bit_is_noticed(kind in kind(), seed: u64, place: prop::sample::Index, bit in 0..8) {
+        let mut bytes = write(&mut sample(kind, seed));
+        let place = place.index(bytes.len());
+        bytes[place] ^= 1u8 << bit;
+        for direction in [Direction::Request, Direction::Response] {
+            let mut rtu = Rtu::expect(&bytes, direction);
+            let reading = walk::read(&mut rtu, &bytes);
+            assert_tiled(&reading.fields, bytes.len());
+            prop_assert!(codes(&reading.fields).contains(&"check-failed"));
+        }
+    }
+
+    #[test]
+    fn any_text_is_decoded(text in "[ -~\\n\\r\\t\u{80}-\u{ffff}]{0,200}", hex in "([0-9A-Fa-f]{0,3}[ ,;:\\n\\[\\]{}\"'\\\\xh]?){0,60}") {
+        for text in [text, hex] {
+            let report = decode(&text, Options::default());
+            let mut last = 0;
+            for (index, telegram) in report.telegrams.iter().enumerate() {
+                let line = &telegram.line;
+                prop_assert_eq!(line.bytes.len(), line.places.len());
+                for place in line.places.iter().chain(line.remarks.iter().map(|remark| &remark.span)) {
+                    prop_assert!(text.get(place.from..place.to).is_some());
+                }
+                for place in &line.places {
+                    prop_assert!(last <= place.from && place.from < place.to);
+                    last = place.to;
+                }
+                let detail = report.detail(index).expect("every telegram has its detail");
+                assert_tiled(&detail.fields, line.bytes.len());
+                let check = detail.check().map(|check| check.ok());
+                prop_assert_eq!(check == Some(true), telegram.verdict == Verdict::Right);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_guide_and_the_reader_agree() {
+    for kind in kinds() {
+        let rows = guide::guide(&mut empty(kind));
+        let mut rtu = sample(kind, 1);
+        let bytes = write(&mut rtu);
+        let reading = walk::read(&mut rtu, &bytes);
+        let mut read = Vec::new();
+        for field in &reading.fields {
+            field.visit(&mut |field| {
+                let offset = field.span.from;
+                if !matches!(field.value, Value::Group) && field.number.is_none() {
+                    read.push((field.spec.key, offset));
+                }
+            });
+        }
+        for row in rows.iter().filter(|row| matches!(row.size, guide::Size::Fixed(_))) {
+            let (_, offset) = read.iter().find(|(key, _)| *key == row.spec.key).expect(row.spec.key);
+            assert!(row.offset.is_none_or(|told| told == *offset), "{}: {}", kind.spec.key, row.spec.key);
+        }
+        assert!(rows.len() > 2, "{}", kind.spec.key);
+    }
+}
+
+/// The whole page's promise for long input: 100,000 characters of anything are read in linear time,
+/// so this test is over at once and not in minutes.
+#[test]
+fn long_input_is_fine() {
+    for unit in ["01 03 ", "0", "G", "{", "\"", "'\\", "0x", "/*", "= {\n", "é", "&H", "01\n", "[", "\\x0"] {
+        let text = unit.repeat(100_000 / unit.len());
+        let report = decode(&text, Options::default());
+        if let Some(index) = report.telegrams.len().checked_sub(1) {
+            let detail = report.detail(index).expect("the last telegram");
+            assert_tiled(&detail.fields, report.telegrams[index].line.bytes.len());
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! One small file for each telegram, below `tests/vectors`.
+//!
+//! The head is written by hand: what it is, its `source`, the `hex` as pasted, the true `direction`
+//! and `check`, and the codes of its `problems`, if it has some. Behind `---` stands what Buslens
+//! makes of it; `BLESS=1 cargo test --test vectors` rewrites that part, and only that part.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use buslens::field::{Field, Severity, Value, leaves};
+use buslens::modbus::{KINDS, OTHER_KINDS};
+use buslens::tool::{Certainty, Detail, Options, Report, Verdict, decode};
+
+#[test]
+fn every_vector_reads_as_written() {
+    let bless = std::env::var_os("BLESS").is_some();
+    let mut failures = Vec::new();
+    for path in vectors() {
+        let text = std::fs::read_to_string(&path).unwrap();
+        let vector = Vector::parse(&text);
+        let report = decode(vector.head("hex"), Options::default());
+        let detail = report.detail(0).unwrap_or_else(|| panic!("{}: no telegram", path.display()));
+        let shown = show(&report, &detail);
+        let name = path.file_stem().unwrap().to_string_lossy().into_owned();
+        for (key, truth) in truths(&report, &detail) {
+            let stated = vector.find(key).unwrap_or("none");
+            if stated != truth {
+                failures.push(format!("{name}: {key} is {truth}, stated {stated}"));
+            }
+        }
+        if bless {
+            std::fs::write(&path, format!("{}---\n{shown}", vector.head)).unwrap();
+        } else if vector.expected != shown {
+            failures.push(format!("{name}: expected\n{}\nfound\n{shown}", vector.expected));
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+#[test]
+fn every_kind_has_a_vector() {
+    let seen: BTreeSet<&str> = vectors()
+        .iter()
+        .filter_map(|path| {
+            let text = std::fs::read_to_string(path).unwrap();
+            let report = decode(Vector::parse(&text).head("hex"), Options::default());
+            let fields = report.detail(0)?.fields;
+            leaves(&fields).into_iter().find_map(|leaf| match leaf.value {
+                Value::Selector { chosen, .. } => Some(chosen.key),
+                _ => None,
+            })
+        })
+        .collect();
+    for kind in KINDS.iter().chain(OTHER_KINDS) {
+        // These two look exactly like the request.
+        let twin = ["write_single_register_response", "unknown_response"].contains(&kind.spec.key);
+        assert!(twin || seen.contains(kind.spec.key), "no vector of {}", kind.spec.key);
+    }
+}
+
+/// All 71 telegrams that the Memograph manual prints: 58 right, 13 with a slip.
+#[test]
+fn the_memograph_manual_is_complete() {
+    let (mut right, mut wrong) = (0, 0);
+    for path in vectors().iter().filter(|path| path.parent().unwrap().ends_with("memograph")) {
+        let text = std::fs::read_to_string(path).unwrap();
+        let report = decode(Vector::parse(&text).head("hex"), Options::default());
+        match report.telegrams[0].verdict {
+            Verdict::Right => right += 1,
+            Verdict::Wrong => wrong += 1,
+            Verdict::Unchecked => panic!("{}: not checked", path.display()),
+        }
+    }
+    assert_eq!((right, wrong), (58, 13));
+}
+
+struct Vector<'a> {
+    /// With the line end of its last line.
+    head: &'a str,
+    expected: &'a str,
+}
+
+impl<'a> Vector<'a> {
+    fn parse(text: &'a str) -> Self {
+        let (head, expected) = text.split_once("---\n").unwrap_or((text, ""));
+        Self { head, expected }
+    }
+
+    fn find(&self, key: &str) -> Option<&'a str> {
+        self.head.lines().find_map(|line| line.strip_prefix(key)?.strip_prefix(": "))
+    }
+
+    fn head(&self, key: &str) -> &'a str {
+        self.find(key).unwrap_or_else(|| panic!("no {key} in\n{}", self.head))
+    }
+}
+
+fn vectors() -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let mut folders = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/vectors")];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() { folders.push(path) } else { found.push(path) }
+        }
+    }
+    found.sort();
+    found
+}
+
+/// What the head of a vector states.
+fn truths(report: &Report, detail: &Detail) -> [(&'static str, String); 3] {
+    let telegram = &report.telegrams[0];
+    let direction = telegram.guess.direction.key();
+    let direction = match telegram.guess.certainty {
+        Certainty::Certain => direction.to_owned(),
+        Certainty::Likely => format!("likely {direction}"),
+        Certainty::Open => "open".to_owned(),
+    };
+    let check = match telegram.verdict {
+        Verdict::Right => "right",
+        Verdict::Wrong => "wrong",
+        Verdict::Unchecked => "none",
+    };
+    let mut codes: Vec<_> = detail.problems().iter().map(|problem| problem.code).collect();
+    codes.extend(telegram.line.remarks.iter().map(|remark| remark.code));
+    let problems = if codes.is_empty() { "none".to_owned() } else { codes.join(", ") };
+    [("direction", direction), ("check", check.to_owned()), ("problems", problems)]
+}
+
+/// A telegram as text that a reviewer can read.
+fn show(report: &Report, detail: &Detail) -> String {
+    let mut text = String::new();
+    let guess = &report.telegrams[0].guess;
+    writeln!(text, "{}.", detail.meaning.sentence()).unwrap();
+    writeln!(text, "{}; {}", detail.kind, guess.reason).unwrap();
+    for field in &detail.fields {
+        show_field(&mut text, field, 0);
+    }
+    for remark in &report.telegrams[0].line.remarks {
+        writeln!(text, "text {}..{}: {}", remark.span.from, remark.span.to, remark.message).unwrap();
+    }
+    text
+}
+
+fn show_field(text: &mut String, field: &Field, depth: usize) {
+    let meaning = field.meaning().map(|meaning| format!(" ({meaning})")).unwrap_or_default();
+    let (from, to) = (field.span.from, field.span.to);
+    let place = format!("{:indent$}{from}..{to}", "", indent = 2 * depth);
+    let label = field.label();
+    writeln!(text, "{place:<12}{label}: {}{meaning}", field.value_text()).unwrap();
+    for problem in &field.problems {
+        let mark = if problem.severity == Severity::Error { "error" } else { "warning" };
+        writeln!(text, "{:12}{mark} {}: {}", "", problem.code, problem.message).unwrap();
+    }
+    for child in &field.children {
+        show_field(text, child, depth + 1);
+    }
+}
