@@ -77,21 +77,22 @@ fn compile(module: &Module) -> Result<PathBuf> {
 /// The folders of this machine whose names the compiler would write into the texts of panics, and
 /// what stands there instead: two people get the same file, and it tells nothing about either.
 fn local_paths() -> Vec<(PathBuf, &'static str)> {
+    // Where several fit, the compiler takes the last one.
     let mut paths = Vec::new();
+    if let Ok(root) = std::env::current_dir() {
+        paths.push((root, "buslens"));
+    }
     if let Some(home) = tools::cargo_home() {
         paths.push((home.clone(), "cargo"));
         // One folder for each registry, called after where the crates came from.
         let registries = std::fs::read_dir(home.join("registry").join("src"));
-        let mut folders: Vec<_> =
-            registries.into_iter().flatten().flatten().map(|entry| (entry.path(), "crates")).collect();
+        let entries = registries.into_iter().flatten().flatten();
+        let mut folders: Vec<_> = entries.map(|entry| (entry.path(), "crates")).collect();
         folders.sort();
         paths.extend(folders);
     }
     if let Some(sysroot) = tools::sysroot() {
-        paths.push((sysroot.join("lib/rustlib/src/rust"), "rust"));
-    }
-    if let Ok(root) = std::env::current_dir() {
-        paths.push((root, "buslens"));
+        paths.push((sysroot.join("lib").join("rustlib").join("src").join("rust"), "rust"));
     }
     paths
 }
