@@ -8,9 +8,9 @@ const BOOT: &str = include_str!("boot.js");
 /// The note in the page while it is not running. A page opened by file:// gets neither its scripts
 /// nor its stylesheet, so only the document itself can say why nothing happens. Everywhere else the
 /// stylesheet hides the note, and the boot script removes it or gives it the fitting words.
-const NOTE: &str = "<p id=\"boot\">Buslens is starting. Should this line stay: a browser starts it \
-    from a web server only, not from a file. In the project's folder, <code>cargo xtask serve</code> \
-    starts one.</p>";
+const NOTE: &str = "<p id=\"boot\">Buslens is starting. If it does not: browsers load it from a web \
+    server only, not from a file. In the project's folder, <code>cargo xtask serve</code> starts such \
+    a server.</p>";
 
 /// Hides the note; belongs to the end of the stylesheet.
 pub const NOTE_STYLE: &str = include_str!("boot.css");
