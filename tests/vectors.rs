@@ -133,7 +133,7 @@ fn truths(report: &Report, detail: &Detail) -> [(&'static str, String); 3] {
 fn show(report: &Report, detail: &Detail) -> String {
     let mut text = String::new();
     let guess = &report.telegrams[0].guess;
-    writeln!(text, "{}.", detail.meaning.sentence()).unwrap();
+    writeln!(text, "{}.", detail.meaning().sentence()).unwrap();
     writeln!(text, "{}; {}", detail.kind, guess.reason).unwrap();
     for field in &detail.fields {
         show_field(&mut text, field, 0);

@@ -1,8 +1,28 @@
-//! The page.
+//! The page. It shows what [`tool`](crate::tool) makes of the input, and knows no protocol.
+//!
+//! - `state`: what the page is about, as signals;
+//! - `browser`: what the browser is asked for;
+//! - `pages`: the views; `components`: their parts.
+
+mod browser;
+mod components;
+mod pages;
+mod state;
 
 use leptos::prelude::*;
 
 /// Puts the page into the document's body.
 pub fn start() {
-    mount_to_body(|| view! { <h1>"Buslens"</h1> });
+    browser::tell_of_panics();
+    mount_to_body(Page);
+}
+
+#[component]
+fn Page() -> impl IntoView {
+    provide_context(state::State::new());
+    view! {
+        <a class="skip" href="#input">"Skip to the input"</a>
+        <components::header::Header />
+        <pages::decode::Decode />
+    }
 }

@@ -75,8 +75,9 @@ pub enum Verdict {
 pub struct Detail {
     /// The tree; its leaves tile the bytes.
     pub fields: Vec<Field>,
-    /// The telegram in one sentence.
-    pub meaning: Message,
+    /// What the telegram says, as if its check were right.
+    pub said: Message,
+    pub verdict: Verdict,
     /// What kind of telegram it is: "Read holding registers (function 3)".
     pub kind: Message,
     /// What the kind is about, for newcomers, and where it is described.
@@ -94,6 +95,15 @@ pub struct Detail {
 }
 
 impl Detail {
+    /// The telegram in one sentence, with what its check makes of it.
+    pub fn meaning(&self) -> Message {
+        match self.verdict {
+            Verdict::Right => self.said.clone(),
+            Verdict::Wrong => message!("{said}, but the check does not match", said = self.said.clone()),
+            Verdict::Unchecked => message!("the beginning of a telegram: too short to say what it means"),
+        }
+    }
+
     /// The problems of all fields, in their order.
     pub fn problems(&self) -> Vec<&Problem> {
         field::problems(&self.fields)
@@ -166,14 +176,10 @@ impl Report {
             ),
             None => rtu.meaning(),
         };
-        let meaning = match telegram.verdict {
-            Verdict::Right => said,
-            Verdict::Wrong => message!("{said}, but the check does not match", said = said),
-            Verdict::Unchecked => message!("the beginning of a telegram: too short to say what it means"),
-        };
         let spec = &rtu.pdu.kind.spec;
         Some(Detail {
-            meaning,
+            said,
+            verdict: telegram.verdict,
             kind: kind_name(spec.label, function),
             note: spec.note,
             source: spec.source,
@@ -186,12 +192,6 @@ impl Report {
             layout: guide::guide(&mut Rtu { unit: rtu.unit, pdu: rtu.pdu.kind.pdu() }),
             fields: reading.fields,
         })
-    }
-
-    /// The telegram in one sentence, for a list.
-    pub fn meaning(&self, index: usize) -> Option<Message> {
-        // A list shows few rows at a time, so the tree is not worth a path of its own here.
-        self.detail(index).map(|detail| detail.meaning)
     }
 
     fn add(&mut self, line: Line, options: Options, pairing: &mut Pairing) {

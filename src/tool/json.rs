@@ -139,7 +139,7 @@ fn row(index: usize, telegram: &Telegram, detail: Detail, fields: bool) -> Row {
         }),
         start: detail.start,
         count: detail.count,
-        meaning: detail.meaning.sentence() + ".",
+        meaning: detail.meaning().sentence() + ".",
         pair: telegram.answers.or(telegram.answered_by).map(|index| index + 1),
         problems: problems.chain(remarks).collect(),
         fields: fields.then(|| detail.fields.iter().map(node).collect()),

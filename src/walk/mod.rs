@@ -4,11 +4,11 @@
 //!
 //! | walker | product |
 //! | --- | --- |
-//! | [`read`] | bytes into the value, and the tree of fields with their spans |
-//! | [`write`] | the value into bytes |
-//! | [`form`] | the value into entries that a person can edit, and back |
-//! | [`guide`] | the reference: what stands where, with limits and notes |
-//! | [`sample`] | a random telegram that keeps its limits, for tests |
+//! | [`read()`] | bytes into the value, and the tree of fields with their spans |
+//! | [`write()`] | the value into bytes |
+//! | [`mod@form`] | the value into entries that a person can edit, and back |
+//! | [`mod@guide`] | the reference: what stands where, with limits and notes |
+//! | [`sample()`] | a random telegram that keeps its limits, for tests |
 //!
 //! Reading never fails: what is wrong becomes a [`Problem`](crate::field::Problem) of a field. A
 //! telegram that ends too early keeps what it has. [`Stop`] only ends the walk, not the reading.

@@ -4,7 +4,7 @@ use crate::field::{Message, Severity, Spec};
 /// Fills `telegram` with random values that keep the limits of their fields.
 ///
 /// `random(n)` gives a number from 0 to `n`, both included. Lists get as many items as their
-/// count's limits allow, at most [`LONGEST`] where there is no limit.
+/// count's limits allow, at most eight where there is no limit.
 pub fn sample(telegram: &mut dyn Telegram, random: &mut dyn FnMut(u64) -> u64) {
     // The sampler never stops a walk.
     let _ = telegram.walk(&mut Sampler { random });
