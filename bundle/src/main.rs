@@ -9,11 +9,9 @@ mod page;
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use flate2::write::GzEncoder;
 use wasm_bindgen_cli_support::Bindgen;
 
 use page::{File, Links};
@@ -41,8 +39,10 @@ fn run() -> Result<(), String> {
     let first = modules.first().ok_or(usage)?;
 
     let mut style = stylesheet(Path::new("style"))?;
-    style.extend(page::NOTE_STYLE.bytes());
-    let style = hashed("page", "css", style);
+    style.push_str(page::NOTE_STYLE);
+    let style =
+        minifier::css::minify(&style).map_err(|error| format!("The stylesheet has a slip: {error}."))?;
+    let style = hashed("page", "css", style.to_string().into_bytes());
     let icon = hashed("icon", "svg", read(Path::new("style/icon.svg"))?);
     let boot = hashed("boot", "js", page::boot(&first.glue, &first.wasm)?.into_bytes());
     let template = String::from_utf8(read(Path::new("index.html"))?)
@@ -94,8 +94,10 @@ impl Module {
                  first, or do without that library."
             ));
         }
+        let glue = minifier::js::minify(output.js())
+            .map_err(|error| format!("The glue of {name} cannot be made smaller: {error}."))?;
         Ok(Module {
-            glue: hashed(name, "js", output.js().as_bytes().to_vec()),
+            glue: hashed(name, "js", glue.to_string().into_bytes()),
             wasm: hashed(name, "wasm", output.wasm_mut().emit_wasm()),
         })
     }
@@ -106,7 +108,7 @@ fn hashed(stem: &str, extension: &str, content: Vec<u8>) -> File {
 }
 
 /// All `.css` files of the folder in the order of their names, as one.
-fn stylesheet(folder: &Path) -> Result<Vec<u8>, String> {
+fn stylesheet(folder: &Path) -> Result<String, String> {
     let mut paths = Vec::new();
     for path in entries(folder)? {
         if path.extension().is_some_and(|extension| extension == "css") {
@@ -114,10 +116,11 @@ fn stylesheet(folder: &Path) -> Result<Vec<u8>, String> {
         }
     }
     paths.sort();
-    let mut text = Vec::new();
+    let mut text = String::new();
     for path in paths {
-        text.extend(read(&path)?);
-        text.push(b'\n');
+        let content = String::from_utf8(read(&path)?);
+        text.push_str(&content.map_err(|_| format!("{} is not UTF-8.", path.display()))?);
+        text.push('\n');
     }
     Ok(text)
 }
@@ -174,11 +177,10 @@ fn brotli(content: &[u8]) -> Result<Vec<u8>, String> {
 }
 
 fn gzip(content: &[u8]) -> Result<Vec<u8>, String> {
-    let mut encoder = GzEncoder::new(Vec::new(), flate2::Compression::best());
-    encoder
-        .write_all(content)
-        .and_then(|()| encoder.finish())
-        .map_err(|error| format!("Gzip failed: {error}."))
+    let mut packed = Vec::new();
+    zopfli::compress(zopfli::Options::default(), zopfli::Format::Gzip, content, &mut packed)
+        .map_err(|error| format!("Gzip failed: {error}."))?;
+    Ok(packed)
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, String> {

@@ -1,8 +1,13 @@
 //! What the browser is asked for, besides showing the page.
 
+use std::cell::RefCell;
+
+use gloo_timers::callback::Timeout;
 use leptos::prelude::*;
 use wasm_bindgen::JsCast;
-use web_sys::{HtmlDocument, HtmlElement, HtmlTextAreaElement};
+use web_sys::{Element, Event, HtmlDocument, HtmlElement, HtmlTextAreaElement};
+
+use crate::field::Span;
 
 /// A panic ends the page's program: says so, and that the input can still be copied.
 pub fn tell_of_panics() {
@@ -58,37 +63,116 @@ fn copy_by_selection(text: &str) {
     }
 }
 
-/// Puts `text` in place of what `area` holds, in a way that the browser's undo takes back.
-pub fn replace_undoably(area: &HtmlTextAreaElement, text: &str) {
-    let _ = area.focus();
+/// The ids of the input, of the list's scrolling part and of the telegram with all its details.
+pub const INPUT: &str = "input";
+pub const LIST: &str = "list";
+pub const DETAIL: &str = "detail";
+
+/// The element with this id.
+pub fn element<T: JsCast>(id: &str) -> Option<T> {
+    document().get_element_by_id(id)?.dyn_into().ok()
+}
+
+/// Puts `text` in place of what the text area `id` holds, in a way that the browser's undo takes
+/// back. The area tells of it like of any other input.
+pub fn replace_undoably(id: &str, text: &str) {
+    let Some(area) = element::<HtmlTextAreaElement>(id) else { return };
+    focus(&area);
     area.select();
-    let replaced = document()
-        .unchecked_into::<HtmlDocument>()
-        .exec_command_with_show_ui_and_value("insertText", false, text)
-        .unwrap_or(false);
-    if !replaced {
+    let command = if text.is_empty() { "delete" } else { "insertText" };
+    let _ =
+        document().unchecked_into::<HtmlDocument>().exec_command_with_show_ui_and_value(command, false, text);
+    if area.value() != text {
         area.set_value(text);
+        if let Ok(event) = Event::new("input") {
+            let _ = area.dispatch_event(&event);
+        }
     }
     let _ = area.set_selection_range(0, 0);
     area.set_scroll_top(0);
 }
 
-/// The closest element at or above the event's target that `selector` fits.
-pub fn closest(event: &web_sys::Event, selector: &str) -> Option<HtmlElement> {
-    let target: web_sys::Element = event.target()?.dyn_into().ok()?;
-    target.closest(selector).ok()??.dyn_into().ok()
+thread_local! {
+    static WAITING: RefCell<Option<Timeout>> = const { RefCell::new(None) };
 }
 
-/// The number in the attribute `name` of the element that `event` is about.
-pub fn number_at(event: &web_sys::Event, name: &str) -> Option<usize> {
-    closest(event, &format!("[{name}]"))?.get_attribute(name)?.parse().ok()
+/// Tells `text` to those who do not see the page, once there is a pause.
+pub fn announce(text: String) {
+    const PAUSE: u32 = 700;
+    let tell = move || {
+        if let Some(status) = element::<Element>("status") {
+            status.set_text_content(Some(&text));
+        }
+    };
+    // What waited before is dropped, and so never told.
+    WAITING.with_borrow_mut(|waiting| *waiting = Some(Timeout::new(PAUSE, tell)));
 }
 
-/// Moves the focus to the element with `id`.
-pub fn focus(id: &str) {
-    if let Some(element) = document().get_element_by_id(id)
-        && let Ok(element) = element.dyn_into::<HtmlElement>()
-    {
+/// The element at or above the event's target that `selector` fits.
+pub fn closest(event: &Event, selector: &str) -> Option<Element> {
+    event.target()?.dyn_into::<Element>().ok()?.closest(selector).ok()?
+}
+
+/// The value of the attribute `name` at or above the event's target.
+pub fn attribute(event: &Event, name: &str) -> Option<String> {
+    closest(event, &format!("[{name}]"))?.get_attribute(name)
+}
+
+/// The bytes that the element of the event stands for.
+pub fn span(event: &Event) -> Option<Span> {
+    parse_span(&attribute(event, SPAN)?)
+}
+
+/// The attribute of elements that stand for bytes of the telegram: `3-5`.
+pub const SPAN: &str = "data-span";
+
+fn parse_span(text: &str) -> Option<Span> {
+    let (from, to) = text.split_once('-')?;
+    Some(Span::new(from.parse().ok()?, to.parse().ok()?))
+}
+
+/// Gives the class `lit` to the elements that stand for bytes of `lit`, and takes it from all
+/// others: groups of cells light up with any of their bytes, rows with just theirs.
+pub fn light(lit: Option<Span>) {
+    let Some(root) = element::<Element>(DETAIL) else { return };
+    for element in all(&root, "[data-span]:is(.group, tr)") {
+        let of = element.get_attribute(SPAN).and_then(|span| parse_span(&span));
+        let overlaps = |of: Span, lit: Span| of.from < lit.to && lit.from < of.to;
+        let on = match (of, lit) {
+            (Some(of), Some(lit)) if element.tag_name() == "TR" => of == lit && !of.is_empty(),
+            (Some(of), Some(lit)) => overlaps(of, lit),
+            _ => false,
+        };
+        let _ = element.class_list().toggle_with_force("lit", on);
+    }
+}
+
+/// Scrolls the list as little as it takes to show its row `index`. All rows are of one height.
+pub fn keep_in_sight(index: usize) {
+    let Some(list) = element::<Element>(LIST) else { return };
+    let row = list.query_selector("[role=option]").ok().flatten().map_or(0, |row| row.client_height());
+    let top = index as i32 * row;
+    let bottom = top + row - list.client_height();
+    list.set_scroll_top(list.scroll_top().min(top).max(bottom));
+}
+
+/// All elements below `root` that `selector` fits.
+pub fn all(root: &Element, selector: &str) -> Vec<Element> {
+    let Ok(found) = root.query_selector_all(selector) else { return Vec::new() };
+    (0..found.length()).filter_map(|index| found.item(index)?.dyn_into().ok()).collect()
+}
+
+/// Moves the focus to `element`, and makes it the one of its siblings in `among` that the tab key
+/// leads to.
+pub fn rove(among: &[Element], element: &Element) {
+    for other in among {
+        let _ = other.set_attribute("tabindex", if other == element { "0" } else { "-1" });
+    }
+    focus(element);
+}
+
+pub fn focus(element: &Element) {
+    if let Some(element) = element.dyn_ref::<HtmlElement>() {
         let _ = element.focus();
     }
 }

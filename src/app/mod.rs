@@ -10,6 +10,7 @@ mod pages;
 mod state;
 
 use leptos::prelude::*;
+use state::State;
 
 /// Puts the page into the document's body.
 pub fn start() {
@@ -19,10 +20,9 @@ pub fn start() {
 
 #[component]
 fn Page() -> impl IntoView {
-    provide_context(state::State::new());
     view! {
         <a class="skip" href="#input">"Skip to the input"</a>
         <components::header::Header />
-        <pages::decode::Decode />
+        <pages::decode::Decode state=State::new() />
     }
 }

@@ -1,42 +1,54 @@
-//! What the page is about. Everything shown follows from the signals here.
+//! What the page is about. Everything shown follows from the signals here, and only the methods
+//! here change them.
 
-use std::sync::Arc;
-
-use leptos::html::Textarea;
 use leptos::prelude::*;
 
-use crate::app::browser;
+use super::browser;
 use crate::field::{Direction, Field, Span, leaves};
-use crate::tool::{Detail, Options, Report, Telegram, decode};
+use crate::tool::{Detail, Options, Report, Summary, Telegram, decode};
 
-/// The page's state: what was typed and chosen, and what follows from that.
+/// The page's state, as handed to every part of it.
 #[derive(Clone, Copy)]
 pub struct State {
-    /// The input as it was typed.
-    pub text: RwSignal<String>,
-    /// Where it was typed.
-    pub area: NodeRef<Textarea>,
+    /// What was typed, and all that follows from it.
+    pub decoded: RwSignal<Decoded>,
+    /// What is pointed at.
+    pub light: RwSignal<Light>,
+}
+
+/// The input and what it says.
+#[derive(Default)]
+pub struct Decoded {
+    pub text: String,
     /// Who speaks, where a person said so.
-    pub direction: RwSignal<Option<Direction>>,
-    /// Index of the telegram that is shown, as far as there are so many.
-    pub selected: RwSignal<usize>,
-    /// The bytes under the pointer.
-    pub pointed: RwSignal<Option<Span>>,
-    /// The bytes chosen by tap, click or keyboard.
-    pub chosen: RwSignal<Option<Span>>,
-    pub report: Memo<Arc<Report>>,
-    /// The telegram that is shown.
-    pub shown: Memo<Option<Arc<Shown>>>,
+    pub direction: Option<Direction>,
+    pub report: Report,
+    /// The telegram that is shown, if there is one.
+    pub shown: Option<Shown>,
 }
 
 /// A telegram with all its details.
-#[derive(PartialEq)]
 pub struct Shown {
     pub index: usize,
     /// How many telegrams there are.
     pub of: usize,
     pub telegram: Telegram,
     pub detail: Detail,
+}
+
+/// Bytes that are to be lit up.
+#[derive(Clone, Copy, Default, PartialEq)]
+pub struct Light {
+    /// Those under the pointer.
+    pointed: Option<Span>,
+    /// Those chosen by tap, click or keyboard.
+    chosen: Option<Span>,
+}
+
+impl Light {
+    pub fn span(self) -> Option<Span> {
+        self.pointed.or(self.chosen)
+    }
 }
 
 impl Shown {
@@ -52,50 +64,112 @@ impl Shown {
     }
 }
 
+impl Decoded {
+    /// The index of the telegram that is shown.
+    pub fn index(&self) -> usize {
+        self.shown.as_ref().map_or(0, |shown| shown.index)
+    }
+
+    fn decode(&mut self) {
+        self.report = decode(&self.text, Options { direction: self.direction });
+        self.show(self.index());
+    }
+
+    /// Shows telegram `index`, or the last one if there are fewer.
+    fn show(&mut self, index: usize) {
+        let of = self.report.telegrams.len();
+        let index = index.min(of.saturating_sub(1));
+        let telegram = self.report.telegrams.get(index).cloned();
+        let read = telegram.zip(self.report.detail(index));
+        self.shown = read.map(|(telegram, detail)| Shown { index, of, telegram, detail });
+    }
+}
+
 impl State {
     pub fn new() -> Self {
-        let text = RwSignal::new(String::new());
-        let direction = RwSignal::new(None);
-        let selected = RwSignal::new(0);
-        let pointed = RwSignal::new(None);
-        let chosen = RwSignal::new(None);
-        let report = Memo::new(move |_| {
-            Arc::new(text.with(|text| decode(text, Options { direction: direction.get() })))
-        });
-        let shown = Memo::new(move |_| {
-            report.with(|report| {
-                let last = report.telegrams.len().checked_sub(1)?;
-                let index = selected.get().min(last);
-                let telegram = report.telegrams[index].clone();
-                Some(Arc::new(Shown { index, of: last + 1, telegram, detail: report.detail(index)? }))
-            })
-        });
-        // Other bytes: what was chosen among the old ones means nothing any more.
-        Effect::new(move |_| {
-            shown.track();
-            pointed.set(None);
-            chosen.set(None);
-        });
-        Self { text, area: NodeRef::new(), direction, selected, pointed, chosen, report, shown }
+        Self { decoded: RwSignal::default(), light: RwSignal::default() }
     }
 
-    /// The page's state, from anywhere below the page.
-    pub fn here() -> Self {
-        expect_context()
-    }
-
-    /// The bytes that are lit up: those under the pointer, else those chosen.
-    pub fn lit(&self) -> Option<Span> {
-        self.pointed.get().or_else(|| self.chosen.get())
+    /// The input was edited; the telegram at the cursor is shown.
+    pub fn type_text(&self, text: String, cursor: usize) {
+        self.change(|decoded| {
+            decoded.text = text;
+            decoded.decode();
+            if let Some(index) = telegram_at(&decoded.report, cursor) {
+                decoded.show(index);
+            }
+        });
+        browser::announce(announcement(self.decoded.with_untracked(|decoded| decoded.report.summary())));
     }
 
     /// Puts `text` in place of the input; the browser's undo takes it back.
     pub fn load(&self, text: &str) {
-        self.selected.set(0);
-        self.direction.set(None);
-        if let Some(area) = self.area.get_untracked() {
-            browser::replace_undoably(&area, text);
+        // The replaced text comes back to us as an input event.
+        browser::replace_undoably(browser::INPUT, text);
+        self.direct(None);
+    }
+
+    /// The cursor moved in the input.
+    pub fn follow_cursor(&self, cursor: usize) {
+        if let Some(index) = self.decoded.with_untracked(|decoded| telegram_at(&decoded.report, cursor)) {
+            self.select(index);
         }
-        self.text.set(text.to_owned());
+    }
+
+    /// A person says who speaks.
+    pub fn direct(&self, direction: Option<Direction>) {
+        self.change(|decoded| {
+            decoded.direction = direction;
+            decoded.decode();
+        });
+    }
+
+    /// Shows another telegram.
+    pub fn select(&self, index: usize) {
+        if index != self.decoded.with_untracked(Decoded::index) {
+            self.change(|decoded| decoded.show(index));
+            browser::keep_in_sight(index);
+        }
+    }
+
+    /// The pointer is over these bytes, or over none.
+    pub fn point(&self, span: Option<Span>) {
+        self.shine(Light { pointed: span, ..self.light.get_untracked() });
+    }
+
+    /// These bytes are chosen, or none.
+    pub fn choose(&self, span: Option<Span>) {
+        self.shine(Light { chosen: span, ..self.light.get_untracked() });
+    }
+
+    fn shine(&self, light: Light) {
+        if light != self.light.get_untracked() {
+            self.light.set(light);
+            browser::light(light.span());
+        }
+    }
+
+    /// Changes what is shown. What was chosen among the bytes before means nothing any more.
+    fn change(&self, change: impl FnOnce(&mut Decoded)) {
+        self.shine(Light::default());
+        self.decoded.update(change);
+    }
+}
+
+/// The telegram at byte `cursor` of the text, or the next one.
+fn telegram_at(report: &Report, cursor: usize) -> Option<usize> {
+    report.telegrams.iter().position(|telegram| cursor <= telegram.line.span.to)
+}
+
+/// "1 telegram", "3 telegrams".
+pub fn count(n: usize, noun: &str) -> String {
+    if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
+}
+
+fn announcement(summary: Summary) -> String {
+    match (summary.telegrams, summary.check_failed) {
+        (0, _) => String::new(),
+        (n, 0) => format!("{}, no failed check", count(n, "telegram")),
+        (n, failed) => format!("{}, {} failed", count(n, "telegram"), count(failed, "check")),
     }
 }

@@ -37,12 +37,11 @@ impl Message {
 
     /// The message in English with a capital first letter, to stand by itself.
     pub fn sentence(&self) -> String {
-        let text = self.to_string();
-        let mut letters = text.chars();
-        match letters.next() {
-            Some(first) => first.to_uppercase().chain(letters).collect(),
-            None => text,
+        let mut text = self.to_string();
+        if let Some(first) = text.get_mut(..1) {
+            first.make_ascii_uppercase();
         }
+        text
     }
 }
 

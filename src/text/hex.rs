@@ -118,9 +118,9 @@ fn physical_lines(text: &str) -> impl Iterator<Item = Span> {
         if from > text.len() {
             return None;
         }
-        let rest = &text[from..];
-        let length = rest.find(['\n', '\r']).unwrap_or(rest.len());
-        let end = if rest[length..].starts_with("\r\n") { 2 } else { 1 };
+        let rest = &text.as_bytes()[from..];
+        let length = rest.iter().position(|byte| matches!(byte, b'\n' | b'\r')).unwrap_or(rest.len());
+        let end = if rest[length..].starts_with(b"\r\n") { 2 } else { 1 };
         let span = Span::new(from, from + length);
         from += length + end;
         Some(span)
@@ -286,7 +286,7 @@ impl Scan<'_> {
     fn after_declaration(&self) -> usize {
         let Some(equals) = self.letters.iter().position(|letter| letter.c == '=') else { return 0 };
         let declared = &self.letters[..equals];
-        let names = declared.iter().any(|letter| letter.c.is_alphabetic() && !letter.c.is_ascii_hexdigit());
+        let names = declared.iter().any(|letter| is_letter(letter.c) && !letter.c.is_ascii_hexdigit());
         let mut value =
             self.letters[equals + 1..].iter().map(|letter| letter.c).skip_while(|c| c.is_whitespace());
         let opens = value.next().is_some_and(|c| matches!(c, '{' | '[' | '(' | '"' | '\'' | '&'));
@@ -403,9 +403,9 @@ impl Scan<'_> {
     fn is_code(&self, from: usize, to: usize, in_code: bool) -> bool {
         let plain = (from..to).all(|at| self.is_hex(at));
         let opens = |at: usize| matches!(self.c(at), Some('(' | '[' | '{' | '"' | '\''));
-        let goes_on = |at: usize| self.c(at).is_some_and(|c| c.is_alphabetic());
+        let goes_on = |at: usize| self.c(at).is_some_and(is_letter);
         // Behind digits, a bracket or quote closes or parts bytes: [01][03], "0103".
-        let named = self.c(from).is_some_and(|c| c.is_alphabetic() || c == '_');
+        let named = self.c(from).is_some_and(is_letter);
         let calls = opens(to)
             || (self.c(to) == Some('!') && opens(to + 1))
             || (self.c(to - 1) == Some('!') && opens(to))
@@ -513,6 +513,11 @@ impl Scan<'_> {
             self.remark("single-digit", Severity::Warning, place, message);
         }
     }
+}
+
+/// Whether `c` can begin a word. The tables of all letters would be kilobytes of the page.
+fn is_letter(c: char) -> bool {
+    c.is_ascii_alphabetic() || !c.is_ascii()
 }
 
 /// Whether `c` can stand between bytes.

@@ -23,7 +23,7 @@ pub fn decode(text: &str, options: Options) -> Report {
         telegrams: Vec::new(),
         not_understood: Vec::new(),
         style: reading.style,
-        lines: text.lines().count(),
+        line_count: text.lines().count(),
     };
     let mut pairing = Pairing::default();
     for line in reading.lines {
@@ -37,7 +37,7 @@ pub fn decode(text: &str, options: Options) -> Report {
 }
 
 /// What was found in a text.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
     pub telegrams: Vec<Telegram>,
     /// Lines without a single byte, with what is wrong with them.
@@ -45,7 +45,7 @@ pub struct Report {
     /// How the bytes were written.
     pub style: Option<Style>,
     /// How many lines the text has, empty ones included.
-    pub lines: usize,
+    pub line_count: usize,
 }
 
 /// A telegram as far as it was looked at without reading its fields.
@@ -123,6 +123,8 @@ impl Detail {
 pub struct Summary {
     pub telegrams: usize,
     pub check_failed: usize,
+    /// Too short to have a check.
+    pub unchecked: usize,
     /// Requests with their response.
     pub pairs: usize,
     /// Requests that somebody should have answered.
@@ -134,15 +136,21 @@ pub struct Summary {
 }
 
 impl Report {
+    /// All lines with bytes or remarks: those of telegrams, then those without bytes.
+    pub fn lines(&self) -> impl Iterator<Item = &Line> {
+        self.telegrams.iter().map(|telegram| &telegram.line).chain(&self.not_understood)
+    }
+
     pub fn summary(&self) -> Summary {
         let mut summary = Summary {
             telegrams: self.telegrams.len(),
-            lines: self.lines,
+            lines: self.line_count,
             lines_not_understood: self.not_understood.len(),
             ..Summary::default()
         };
         for telegram in &self.telegrams {
             summary.check_failed += usize::from(telegram.verdict == Verdict::Wrong);
+            summary.unchecked += usize::from(telegram.verdict == Verdict::Unchecked);
             summary.pairs += usize::from(telegram.answers.is_some());
             if telegram.guess.certainty != Certainty::Open {
                 match telegram.guess.direction {

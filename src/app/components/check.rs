@@ -1,55 +1,41 @@
 //! The check: what it covers, what was found, what it should be.
 
-use std::sync::Arc;
+use maud::{Markup, html};
 
-use leptos::prelude::*;
+use crate::app::state::Shown;
+use crate::field::{hex, hex_value};
 
-use crate::app::browser;
-use crate::app::state::{Shown, State};
-use crate::field::{Span, hex, hex_value};
-
-#[component]
-pub fn Check(shown: Arc<Shown>) -> impl IntoView {
-    let state = State::here();
-    shown.detail.check().map(|check| {
-        let length = shown.bytes().len();
-        let covered = Span::new(0, length - check.width);
-        let name = check.kind.to_uppercase();
-        let value = hex_value(check.computed_value(), check.width);
-        let repaired = {
-            let payload = hex(covered.of(shown.bytes()));
-            format!("{payload} {}", check.computed_bytes())
-        };
-        let explained = view! {
-            {name}" over "
-            <button type="button" class="link" on:click=move |_| state.chosen.set(Some(covered))>
-                {format!("bytes 0 to {}", covered.to - 1)}
-            </button>
-            " gives "<code>{value}</code>", on the wire low byte first: "<code>{check.computed_bytes()}</code>"."
-        };
-        if check.ok() {
-            view! {
-                <div class="check good">
-                    <h3>"The check is right"</h3>
-                    <p>{explained}</p>
-                </div>
+pub fn check(shown: &Shown) -> Markup {
+    let Some(check) = shown.detail.check() else { return html! {} };
+    let bytes = shown.bytes();
+    let covered = bytes.len() - check.width;
+    let computed = check.computed_bytes();
+    let explained = html! {
+        (check.kind.to_ascii_uppercase()) " over "
+        button.link type="button" data-span={ "0-" (covered) } { "bytes 0 to " (covered - 1) }
+        " gives " code { (hex_value(check.computed_value(), check.width)) }
+        ", on the wire low byte first: " code { (computed) } "."
+    };
+    if check.ok() {
+        html! {
+            div.check.good {
+                h3 { "The check is right" }
+                p { (explained) }
             }
-            .into_any()
-        } else {
-            view! {
-                <div class="check error">
-                    <h3>"The check does not match"</h3>
-                    <p>{explained}" Found: "<code>{check.found_bytes()}</code>"."</p>
-                    <p>
-                        "Some byte is not what its sender checked, or is missing or too many, or the check itself is "
-                        "wrong. The check alone cannot tell which: what is said above may be wrong, too."
-                    </p>
-                    <button type="button" class="quiet" on:click=move |_| browser::copy(&repaired)>
-                        "Copy with the computed check"
-                    </button>
-                </div>
-            }
-            .into_any()
         }
-    })
+    } else {
+        html! {
+            div.check.error {
+                h3 { "The check does not match" }
+                p { (explained) " Found: " code { (check.found_bytes()) } "." }
+                p {
+                    "Some byte is not what its sender checked, or is missing or too many, or the check itself is \
+                     wrong. The check alone cannot tell which: what is said above may be wrong, too."
+                }
+                button.quiet type="button" data-copy={ (hex(&bytes[..covered])) " " (computed) } {
+                    "Copy with the computed check"
+                }
+            }
+        }
+    }
 }

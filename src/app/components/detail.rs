@@ -1,111 +1,182 @@
 //! One telegram: what it says, its bytes, its fields, its check.
 
-use std::sync::Arc;
-
 use leptos::prelude::*;
+use maud::{Markup, html};
+use web_sys::{Element, Event, KeyboardEvent};
 
-use super::examples::Examples;
-use super::{check, fields, layout, strip};
+use super::{check, examples, fields, layout, strip};
 use crate::app::browser;
-use crate::app::state::{Shown, State};
-use crate::field::{Severity, hex};
+use crate::app::state::{Decoded, Shown, State};
+use crate::field::{Message, Severity, hex};
 use crate::tool::Certainty;
 
 #[component]
-pub fn Telegram() -> impl IntoView {
-    let state = State::here();
+pub fn Telegram(state: State) -> impl IntoView {
+    let reading = move || {
+        let markup = state.decoded.with(|decoded| decoded.shown.as_ref().map_or_else(welcome, reading));
+        markup.into_string()
+    };
+    let layout = move || {
+        let shown = |decoded: &Decoded| decoded.shown.as_ref().map(|shown| layout::layout(&shown.detail));
+        state.decoded.with(shown).map(Markup::into_string).unwrap_or_default()
+    };
     view! {
-        <section class="card detail" aria-label="Telegram" on:pointerleave=move |_| state.pointed.set(None)>
-            {move || match state.shown.get() {
-                Some(shown) => view! { <Reading shown /> }.into_any(),
-                None => view! { <Welcome /> }.into_any(),
-            }}
+        <section
+            id=browser::DETAIL
+            class="card detail"
+            aria-label="Telegram"
+            on:pointerover=move |event| state.point(browser::span(&event))
+            on:pointerleave=move |_| state.point(None)
+            on:click=move |event| click(state, &event)
+            on:focusin=move |event| {
+                if browser::closest(&event, STOP).is_some() {
+                    state.choose(browser::span(&event));
+                }
+            }
+            on:keydown=move |event| go(state, &event)
+        >
+            <div inner_html=reading></div>
+            <details class="layout" hidden=move || state.decoded.with(|decoded| decoded.shown.is_none())>
+                <summary>"How such a telegram is made"</summary>
+                <div inner_html=layout></div>
+            </details>
         </section>
     }
 }
 
-/// What a person sees first.
-#[component]
-fn Welcome() -> impl IntoView {
-    let state = State::here();
-    view! {
-        <div class="welcome">
-            <h2>"What does this telegram say?"</h2>
-            <p>
-                "Paste the bytes of a Modbus RTU telegram on the left, or several, one in a line. Every byte is "
-                "explained, every check is checked, and what is wrong is said."
-            </p>
-            <p class="title">"Or start with an example"</p>
-            <Examples choose=move |example| state.load(example.text) />
-        </div>
+/// Cells and rows that the arrow keys lead to.
+const STOP: &str = "[data-stop]";
+
+fn click(state: State, event: &Event) {
+    if examples::load(state, event) {
+        return;
+    }
+    if let Some(index) = browser::attribute(event, "data-select").and_then(|index| index.parse().ok()) {
+        state.select(index);
+    } else if let Some(text) = browser::attribute(event, "data-copy") {
+        browser::copy(&text);
+    } else if let Some(span) = browser::span(event) {
+        state.choose(Some(span));
+        if let Some(group) = browser::closest(event, "button.group") {
+            open_or_close(&group, None);
+        }
     }
 }
 
-#[component]
-fn Reading(shown: Arc<Shown>) -> impl IntoView {
-    let state = State::here();
+/// Arrow keys go from cell to cell and from row to row; left and right close and open a group.
+fn go(state: State, event: &KeyboardEvent) {
+    let Some(stop) = browser::closest(event, STOP) else { return };
+    let Some(all) = stop.closest(".strip, .fields").ok().flatten().map(|root| browser::all(&root, STOP))
+    else {
+        return;
+    };
+    // Rows of a closed group have no boxes.
+    let stops: Vec<Element> = all.into_iter().filter(|stop| stop.client_height() > 0).collect();
+    let last = stops.len().saturating_sub(1);
+    let at = stops.iter().position(|other| *other == stop).unwrap_or(0);
+    let in_table = stop.class_list().contains("field");
+    let to = match event.key().as_str() {
+        "ArrowLeft" | "ArrowRight" if in_table => {
+            open_or_close(&stop, Some(event.key() == "ArrowRight"));
+            at
+        }
+        "ArrowRight" | "ArrowDown" => (at + 1).min(last),
+        "ArrowLeft" | "ArrowUp" => at.saturating_sub(1),
+        "Home" => 0,
+        "End" => last,
+        "Escape" => {
+            state.choose(None);
+            return;
+        }
+        _ => return,
+    };
+    event.prevent_default();
+    browser::rove(&stops, &stops[to]);
+}
+
+/// Shows or hides the rows within the group of `button`.
+fn open_or_close(button: &Element, open: Option<bool>) {
+    let Some(now) = button.get_attribute("aria-expanded") else { return };
+    let open = open.unwrap_or(now == "false");
+    let _ = button.set_attribute("aria-expanded", if open { "true" } else { "false" });
+    let depth = |row: &Element| row.get_attribute("data-depth").and_then(|depth| depth.parse::<usize>().ok());
+    let Ok(Some(row)) = button.closest("tr") else { return };
+    let within = std::iter::successors(row.next_element_sibling(), Element::next_element_sibling)
+        .take_while(|other| depth(other) > depth(&row));
+    for row in within {
+        let _ = row.toggle_attribute_with_force("hidden", !open);
+    }
+}
+
+/// What a person sees first.
+fn welcome() -> Markup {
+    html! {
+        div.welcome {
+            h2 { "What does this telegram say?" }
+            p {
+                "Paste the bytes of a Modbus RTU telegram, or of several, one in a line. Every byte is explained, \
+                 every check is checked, and what is wrong is said."
+            }
+            p.title { "Or start with an example" }
+            div.examples { (examples::examples()) }
+        }
+    }
+}
+
+fn reading(shown: &Shown) -> Markup {
     let telegram = &shown.telegram;
     let direction = match telegram.guess.certainty {
         Certainty::Open => "telegram",
         Certainty::Certain | Certainty::Likely => telegram.guess.direction.key(),
     };
-    let partner = telegram.answers.map(|index| ("answers telegram", index));
-    let partner = partner.or(telegram.answered_by.map(|index| ("answered by telegram", index)));
-    let partner = partner.map(|(words, index)| {
-        view! {
-            " · "
-            <button type="button" class="link" on:click=move |_| state.selected.set(index)>
-                {format!("{words} {}", index + 1)}
-            </button>
-        }
-    });
-    let sure = match telegram.guess.certainty {
-        Certainty::Certain => "",
-        Certainty::Likely => "Taken for a ",
-        Certainty::Open => "Request or response: ",
-    };
-    let sure = match telegram.guess.certainty {
-        Certainty::Likely => format!("{sure}{direction}: "),
-        Certainty::Certain => format!("A {direction}: "),
-        Certainty::Open => sure.to_owned(),
-    };
-    let problems = shown.detail.problems().into_iter().cloned().collect::<Vec<_>>();
-    let listed = problems
-        .into_iter()
-        .map(|problem| {
-            let (class, word) = match problem.severity {
-                Severity::Error => ("error", "Error"),
-                Severity::Warning => ("warning", "Warning"),
-            };
-            let span = problem.span;
-            view! {
-                <li class=class>
-                    <button type="button" on:click=move |_| state.chosen.set(Some(span))>
-                        <span class="unseen">{word}": "</span>
-                        {problem.message.sentence()}
-                        "."
-                    </button>
-                </li>
+    let partner = telegram.answers.map(|index| ("answers telegram ", index));
+    let partner = partner.or(telegram.answered_by.map(|index| ("answered by telegram ", index)));
+    html! {
+        p.title {
+            "Telegram " (shown.index + 1) " of " (shown.of) " · Modbus RTU " (direction)
+            @if let Some((words, index)) = partner {
+                " · " button.link type="button" data-select=(index) { (words) (index + 1) }
             }
-        })
-        .collect::<Vec<_>>();
-    let bytes = hex(shown.bytes());
-    view! {
-        <p class="title">
-            {format!("Telegram {} of {} · Modbus RTU {direction}", shown.index + 1, shown.of)} {partner}
-        </p>
-        <h2>{shown.detail.meaning().sentence()}"."</h2>
-        <p class="kind">{shown.detail.kind.to_string()}". "{sure}{telegram.guess.reason.to_string()}"."</p>
-        {(!listed.is_empty()).then(|| view! { <ul class="problems">{listed}</ul> })}
-        <div class="bar">
-            <p class="count">{crate::field::Message::bytes(shown.bytes().len()).to_string()}</p>
-            <button type="button" class="quiet" on:click=move |_| browser::copy(&bytes)>
-                "Copy as hex"
-            </button>
-        </div>
-        <strip::Strip shown=shown.clone() />
-        <fields::Fields shown=shown.clone() />
-        <check::Check shown=shown.clone() />
-        <layout::Layout shown />
+        }
+        h2 { (shown.detail.meaning().sentence()) "." }
+        p.kind {
+            (shown.detail.kind) ". "
+            @match telegram.guess.certainty {
+                Certainty::Certain => { "A " (direction) ": " },
+                Certainty::Likely => { "Taken for a " (direction) ": " },
+                Certainty::Open => "Request or response? ",
+            }
+            (telegram.guess.reason) "."
+        }
+        (problems(shown))
+        div.bar {
+            p.count { (Message::bytes(shown.bytes().len())) }
+            button.quiet type="button" data-copy=(hex(shown.bytes())) { "Copy as hex" }
+        }
+        (strip::strip(shown))
+        (fields::fields(shown))
+        (check::check(shown))
+    }
+}
+
+fn problems(shown: &Shown) -> Markup {
+    let problems = shown.detail.problems();
+    html! {
+        @if !problems.is_empty() {
+            ul.problems {
+                @for problem in problems {
+                    @let (class, word) = match problem.severity {
+                        Severity::Error => ("error", "Error"),
+                        Severity::Warning => ("warning", "Warning"),
+                    };
+                    li class=(class) {
+                        button type="button" data-span={ (problem.span.from) "-" (problem.span.to) } {
+                            span.unseen { (word) ": " }
+                            span { (problem.message.sentence()) "." }
+                        }
+                    }
+                }
+            }
+        }
     }
 }

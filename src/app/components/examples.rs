@@ -1,37 +1,37 @@
 //! Telegrams to try.
 
-use leptos::prelude::*;
+use maud::{Markup, html};
 
-use crate::tool::examples::{EXAMPLES, Example};
+use crate::app::browser;
+use crate::app::state::State;
+use crate::tool::examples::EXAMPLES;
 
 /// The examples as buttons, right ones before broken ones.
-#[component]
-pub fn Examples(choose: impl Fn(&'static Example) + Copy + 'static) -> impl IntoView {
-    let group = move |broken: bool| {
-        EXAMPLES
-            .iter()
-            .filter(|example| example.broken == broken)
-            .map(|example| {
-                view! {
-                    <li>
-                        <button type="button" data-example=example.key on:click=move |_| choose(example)>
-                            {example.label}
-                        </button>
-                    </li>
+pub fn examples() -> Markup {
+    let group = |title: &str, broken: bool| {
+        html! {
+            section {
+                h3 { (title) }
+                ul {
+                    @for example in EXAMPLES.iter().filter(|example| example.broken == broken) {
+                        li { button type="button" data-example=(example.key) { (example.label) } }
+                    }
                 }
-            })
-            .collect_view()
+            }
+        }
     };
-    view! {
-        <div class="examples">
-            <section>
-                <h3>"As they should be"</h3>
-                <ul>{group(false)}</ul>
-            </section>
-            <section>
-                <h3>"Broken, to see what is said"</h3>
-                <ul>{group(true)}</ul>
-            </section>
-        </div>
+    html! {
+        (group("As they should be", false))
+        (group("Broken, to see what is said", true))
     }
+}
+
+/// Loads the example that was clicked, if one was.
+pub fn load(state: State, event: &web_sys::Event) -> bool {
+    let key = browser::attribute(event, "data-example");
+    let example = EXAMPLES.iter().find(|example| Some(example.key) == key.as_deref());
+    if let Some(example) = example {
+        state.load(example.text);
+    }
+    example.is_some()
 }

@@ -4,31 +4,26 @@ use leptos::prelude::*;
 
 use crate::app::browser;
 
+/// The boot script reads the same setting, so that the page comes up in the right colours.
 const THEME: &str = "buslens.theme";
 
 #[component]
 pub fn Header() -> impl IntoView {
-    let theme = RwSignal::new(browser::remembered(THEME).unwrap_or_else(|| "system".to_owned()));
-    Effect::new(move |_| {
-        let theme = theme.get();
+    let theme = browser::remembered(THEME).unwrap_or_default();
+    let choose = |theme: String| {
         if let Some(root) = document().document_element() {
-            // The boot script sets the same attribute before the first paint.
             let _ = root.set_attribute("data-theme", &theme);
         }
         browser::remember(THEME, &theme);
-    });
+    };
     view! {
         <header class="top">
             <h1>"Bus"<span>"lens"</span></h1>
             <p class="promise">"Reads field-bus telegrams. Nothing leaves this page."</p>
             <label class="theme">
                 <span>"Theme"</span>
-                <select
-                    id="theme"
-                    prop:value=move || theme.get()
-                    on:change:target=move |event| theme.set(event.target().value())
-                >
-                    <option value="system">"System"</option>
+                <select id="theme" prop:value=theme on:change:target=move |event| choose(event.target().value())>
+                    <option value="">"System"</option>
                     <option value="light">"Light"</option>
                     <option value="dark">"Dark"</option>
                 </select>

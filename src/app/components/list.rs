@@ -1,11 +1,12 @@
 //! The telegrams of the input, a row each. Only the rows in sight exist.
 
-use leptos::html::Div;
 use leptos::prelude::*;
+use maud::{Markup, html};
 
-use crate::app::state::State;
+use crate::app::browser::{self, LIST};
+use crate::app::state::{Decoded, State};
 use crate::field::Direction;
-use crate::tool::{Certainty, Verdict};
+use crate::tool::{Certainty, Report, Verdict};
 
 /// The height of a row in pixels; the stylesheet has the same.
 const ROW: usize = 48;
@@ -13,28 +14,13 @@ const ROW: usize = 48;
 const SIGHT: usize = 10;
 
 #[component]
-pub fn Telegrams() -> impl IntoView {
-    let state = State::here();
+pub fn Telegrams(state: State) -> impl IntoView {
     let scrolled = RwSignal::new(0);
-    let window = NodeRef::<Div>::new();
-    let total = Memo::new(move |_| state.report.with(|report| report.telegrams.len()));
-    let current = Memo::new(move |_| state.selected.get().min(total.get().saturating_sub(1)));
-    // The chosen row is always in sight.
-    Effect::new(move |_| {
-        let top = (current.get() * ROW) as i32;
-        if let Some(window) = window.get() {
-            let bottom = top + ROW as i32 - window.client_height();
-            let at = window.scroll_top();
-            if at > top {
-                window.set_scroll_top(top);
-            } else if at < bottom {
-                window.set_scroll_top(bottom);
-            }
-        }
-    });
+    let total = move || state.decoded.with(|decoded| decoded.report.telegrams.len());
+    let current = move || state.decoded.with(Decoded::index);
     let go = move |event: web_sys::KeyboardEvent| {
-        let last = total.get_untracked().saturating_sub(1);
-        let at = current.get_untracked();
+        let last = untrack(total).saturating_sub(1);
+        let at = untrack(current);
         let to = match event.key().as_str() {
             "ArrowDown" => at + 1,
             "ArrowUp" => at.saturating_sub(1),
@@ -45,15 +31,14 @@ pub fn Telegrams() -> impl IntoView {
             _ => return,
         };
         event.prevent_default();
-        state.selected.set(to.min(last));
+        state.select(to.min(last));
     };
     let rows = move || {
-        let first = (scrolled.get() / ROW).saturating_sub(2);
-        let last = (first + SIGHT + 5).min(total.get());
-        (first..last).map(|index| row(state, current, index)).collect_view()
+        let scrolled = scrolled.get();
+        state.decoded.with(|decoded| rows(&decoded.report, scrolled / ROW, decoded.index()).into_string())
     };
     view! {
-        <section class="card telegrams" aria-labelledby="telegrams" hidden=move || total.get() == 0>
+        <section class="card telegrams" aria-labelledby="telegrams" hidden=move || total() == 0>
             <h2 id="telegrams" class="title">"Telegrams"</h2>
             <div class="row head" aria-hidden="true">
                 <span>"#"</span>
@@ -63,30 +48,42 @@ pub fn Telegrams() -> impl IntoView {
                 <span>"Check"</span>
             </div>
             <div
+                id=LIST
                 class="window"
                 role="listbox"
                 tabindex="0"
                 aria-labelledby="telegrams"
-                aria-activedescendant=move || format!("telegram-{}", current.get())
-                node_ref=window
+                aria-activedescendant=move || format!("telegram-{}", current())
                 on:keydown=go
+                on:click=move |event| {
+                    if let Some(index) = browser::attribute(&event, "data-telegram").and_then(|at| at.parse().ok()) {
+                        state.select(index);
+                    }
+                }
                 on:scroll:target=move |event| scrolled.set(event.target().scroll_top().max(0) as usize)
-            >
-                <div class="space" role="presentation" style:height=move || format!("{}px", total.get() * ROW)>
-                    {rows}
-                </div>
-            </div>
+                inner_html=rows
+            ></div>
         </section>
     }
 }
 
-fn row(state: State, current: Memo<usize>, index: usize) -> Option<impl IntoView> {
-    let (telegram, said, unit, total) = state.report.with(|report| {
-        let telegram = report.telegrams.get(index)?;
-        let detail = report.detail(index)?;
-        let unit = detail.unit.map(|unit| unit.to_string()).unwrap_or_default();
-        Some((telegram.clone(), detail.said.sentence(), unit, report.telegrams.len()))
-    })?;
+/// The rows around `top`, as many as can be in sight, in a space as high as all of them.
+fn rows(report: &Report, top: usize, current: usize) -> Markup {
+    let first = top.saturating_sub(2);
+    let total = report.telegrams.len();
+    let last = (first + SIGHT + 5).min(total);
+    html! {
+        // The space above and below belongs to rows that do not exist at the moment.
+        svg.space width="1" height=(first.min(last) * ROW) aria-hidden="true" {}
+        @for index in first..last { (row(report, index, index == current)) }
+        svg.space width="1" height=((total - last) * ROW) aria-hidden="true" {}
+    }
+}
+
+fn row(report: &Report, index: usize, selected: bool) -> Markup {
+    let (Some(telegram), Some(detail)) = (report.telegrams.get(index), report.detail(index)) else {
+        return html! {};
+    };
     let (arrow, direction) = match (telegram.guess.certainty, telegram.guess.direction) {
         (Certainty::Open, _) => ("↔", "direction open"),
         (_, Direction::Request) => ("→", "request"),
@@ -97,28 +94,20 @@ fn row(state: State, current: Memo<usize>, index: usize) -> Option<impl IntoView
         Verdict::Wrong => ("✗", "check failed", "error"),
         Verdict::Unchecked => ("…", "too short to check", "open"),
     };
-    Some(view! {
-        <div
-            class="row"
-            role="option"
-            id=format!("telegram-{index}")
-            aria-selected=move || (current.get() == index).to_string()
-            aria-setsize=total
-            aria-posinset=index + 1
-            style:top=format!("{}px", index * ROW)
-            on:click=move |_| state.selected.set(index)
-        >
-            <span class="number">{index + 1}</span>
-            <span class="direction" title=direction>
-                <span aria-hidden="true">{arrow}</span>
-                <span class="unseen">{direction}</span>
-            </span>
-            <span class="unit">{unit}</span>
-            <span class="said">{said}</span>
-            <span class=format!("check {class}") title=check>
-                <span aria-hidden="true">{mark}</span>
-                <span class="unseen">{check}</span>
-            </span>
-        </div>
-    })
+    html! {
+        div.row role="option" id={ "telegram-" (index) } data-telegram=(index) aria-selected=(selected)
+            aria-setsize=(report.telegrams.len()) aria-posinset=(index + 1) {
+            span.number { (index + 1) }
+            span.direction title=(direction) {
+                span aria-hidden="true" { (arrow) }
+                span.unseen { (direction) }
+            }
+            span.unit { @if let Some(unit) = detail.unit { (unit) } }
+            span.said { (detail.said.sentence()) }
+            span class={ "check " (class) } title=(check) {
+                span aria-hidden="true" { (mark) }
+                span.unseen { (check) }
+            }
+        }
+    }
 }

@@ -1,119 +1,56 @@
-//! The bytes of a telegram in a row, grouped by field. Bytes and fields light each other up.
+//! The bytes of a telegram in a row, grouped by field.
 
-use std::sync::Arc;
+use maud::{Markup, html};
 
-use leptos::prelude::*;
-
-use crate::app::browser;
-use crate::app::state::{Shown, State};
+use crate::app::state::Shown;
 use crate::field::{Field, Numbering, Role, Severity};
 
 /// More bytes than a telegram can have are not worth a cell each.
 const MOST: usize = 300;
 
-#[component]
-pub fn Strip(shown: Arc<Shown>) -> impl IntoView {
-    let state = State::here();
+pub fn strip(shown: &Shown) -> Markup {
     let bytes = shown.bytes();
-    let total = bytes.len().min(MOST);
-    let rest = bytes.len() - total;
-    let groups: Vec<_> = shown
-        .leaves()
-        .into_iter()
-        .filter(|leaf| leaf.span.from < MOST)
-        .map(|leaf| group(state, leaf, bytes))
-        .collect();
-    let spans: Arc<[_]> = shown.leaves().into_iter().map(|leaf| leaf.span).collect();
-    let field_of = move |byte: usize| spans.iter().copied().find(|span| span.contains(byte));
-    let field_at = Arc::new(move |event: &web_sys::Event| field_of(browser::number_at(event, "data-byte")?));
-    let (point, choose, focus) = (field_at.clone(), field_at.clone(), field_at);
-    let at = RwSignal::new(0);
-    let go = move |event: web_sys::KeyboardEvent| {
-        let Some(byte) = browser::number_at(&event, "data-byte") else { return };
-        let to = match event.key().as_str() {
-            "ArrowRight" | "ArrowDown" => byte + 1,
-            "ArrowLeft" | "ArrowUp" => byte.saturating_sub(1),
-            "Home" => 0,
-            "End" => total - 1,
-            "Escape" => {
-                state.chosen.set(None);
-                return;
+    html! {
+        div.strip role="group" aria-label="Bytes. Arrow keys go from byte to byte." {
+            @for leaf in shown.leaves().into_iter().filter(|leaf| leaf.span.from < MOST) {
+                (group(leaf, bytes))
             }
-            _ => return,
-        };
-        event.prevent_default();
-        browser::focus(&format!("byte-{}", to.min(total - 1)));
-    };
-    // One byte is in the order of the tab key; the arrow keys lead to the others.
-    Effect::new(move |before: Option<usize>| {
-        let now = at.get();
-        for (byte, index) in [(before, "-1"), (Some(now), "0")] {
-            let id = byte.map(|byte| format!("byte-{byte}"));
-            if let Some(cell) = id.and_then(|id| document().get_element_by_id(&id)) {
-                let _ = cell.set_attribute("tabindex", index);
+            @if bytes.len() > MOST {
+                p.rest { "and " (bytes.len() - MOST) " bytes more" }
             }
         }
-        now
-    });
-    view! {
-        <div
-            class="strip"
-            role="group"
-            aria-label="Bytes. Arrow keys go from byte to byte."
-            on:pointerover=move |event| state.pointed.set(point(&event))
-            on:click=move |event| {
-                if let Some(span) = choose(&event) {
-                    state.chosen.set(Some(span));
-                }
-            }
-            on:focusin=move |event| {
-                if let Some(byte) = browser::number_at(&event, "data-byte") {
-                    at.set(byte);
-                    state.chosen.set(focus(&event));
-                }
-            }
-            on:keydown=go
-        >
-            {groups}
-            {(rest > 0).then(|| view! { <p class="rest">{format!("and {rest} bytes more")}</p> })}
-        </div>
     }
 }
 
-fn group(state: State, leaf: &Field, bytes: &[u8]) -> impl IntoView + use<> {
-    let span = leaf.span;
-    let faulty = leaf.problems.iter().any(|problem| problem.severity == Severity::Error);
+fn group(leaf: &Field, bytes: &[u8]) -> Markup {
     let name = leaf.label().to_string();
     let label = match leaf.number {
         None => leaf.spec.short.to_owned(),
         Some(Numbering::At(_)) => name.rsplit(' ').next().unwrap_or_default().to_owned(),
         Some(Numbering::Offset(n)) => format!("+{n}"),
     };
-    let lit = move || state.lit().is_some_and(|lit| lit.from < span.to && span.from < lit.to);
-    let cells: Vec<_> = (span.from..span.to.min(MOST))
-        .map(|at| {
-            let byte = format!("{:02X}", bytes[at]);
-            let described = format!("Byte {at}: {byte}, {name}");
-            view! {
-                <button
-                    type="button"
-                    id=format!("byte-{at}")
-                    data-byte=at
-                    tabindex=if at == 0 { "0" } else { "-1" }
-                    aria-label=described
-                >
-                    <b>{byte}</b>
-                    <small>{at}</small>
-                </button>
+    let to = leaf.span.to.min(MOST);
+    html! {
+        div class={ "group " (role_class(leaf.spec.role)) (faulty(leaf)) }
+            data-span={ (leaf.span.from) "-" (leaf.span.to) } {
+            span.name aria-hidden="true" { (label) }
+            div.cells {
+                @for (at, byte) in (leaf.span.from..to).zip(&bytes[leaf.span.from..to]) {
+                    button type="button" data-stop="" tabindex=(if at == 0 { "0" } else { "-1" })
+                        aria-label={ "Byte " (at) ": " (format_args!("{byte:02X}")) ", " (name) } {
+                        b { (format_args!("{byte:02X}")) }
+                        small { (at) }
+                    }
+                }
             }
-        })
-        .collect();
-    view! {
-        <div class=format!("group {}", role_class(leaf.spec.role)) class:faulty=faulty class:lit=lit>
-            <span class="name" aria-hidden="true">{label}</span>
-            <div class="cells">{cells}</div>
-        </div>
+        }
     }
+}
+
+/// The class of a field with an error.
+pub fn faulty(field: &Field) -> &'static str {
+    let error = field.problems.iter().any(|problem| problem.severity == Severity::Error);
+    if error { " faulty" } else { "" }
 }
 
 /// The class that gives a role its colour.

@@ -3,16 +3,17 @@
 use leptos::prelude::*;
 
 use crate::app::components::{detail, input, list};
+use crate::app::state::State;
 
 #[component]
-pub fn Decode() -> impl IntoView {
+pub fn Decode(state: State) -> impl IntoView {
     view! {
         <main class="decode">
             <div class="column">
-                <input::Input />
-                <list::Telegrams />
+                <input::Input state />
+                <list::Telegrams state />
             </div>
-            <detail::Telegram />
+            <detail::Telegram state />
         </main>
     }
 }
