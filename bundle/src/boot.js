@@ -1,5 +1,9 @@
 // Starts Buslens: the glue first, which then fetches the wasm. The note in the page says what is
 // wrong where not even this script may run, see page.rs.
+try {
+  // Chosen in an earlier visit, see header.rs; a browser may forbid to look.
+  document.documentElement.dataset.theme = localStorage.getItem("buslens.theme") ?? "";
+} catch {}
 (async (here) => {
   const note = document.getElementById("boot");
   try {

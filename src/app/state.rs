@@ -99,6 +99,7 @@ impl State {
                 decoded.show(index);
             }
         });
+        browser::keep_in_sight(self.decoded.with_untracked(Decoded::index));
         browser::announce(announcement(self.decoded.with_untracked(|decoded| decoded.report.summary())));
     }
 

@@ -25,8 +25,9 @@ pub enum Certainty {
 
 /// Tells from a PDU's function code and length whether it is a request or a response.
 ///
-/// `around` is how many bytes its frame has besides: people count the frame's bytes.
-pub fn direction(pdu: &[u8], around: usize) -> Guess {
+/// `around` is how many bytes its frame has besides: people count the frame's bytes. `awaited` says
+/// that a request of the same function waits for its response.
+pub fn direction(pdu: &[u8], around: usize, awaited: bool) -> Guess {
     let Some(function) = pdu.first().copied() else {
         return Guess {
             direction: Direction::Request,
@@ -61,21 +62,28 @@ pub fn direction(pdu: &[u8], around: usize) -> Guess {
             certainty: Certainty::Open,
             reason: message!("in function {f}, request and response look the same here", f = function),
         },
-        (false, false) => nearer(function, pdu, around, request, response),
+        (false, false) => nearer(pdu, around, awaited, request, response),
     }
 }
 
 /// The direction whose length the PDU misses by less.
-fn nearer(function: u8, pdu: &[u8], around: usize, request: &Kind, response: &Kind) -> Guess {
+fn nearer(pdu: &[u8], around: usize, awaited: bool, request: &Kind, response: &Kind) -> Guess {
+    /// How many slips more a response may have that somebody waits for.
+    const AWAITED: usize = 2;
+    let allowed = if awaited { AWAITED } else { 0 };
     let (of_request, of_response) = (slips(request.length, pdu), slips(response.length, pdu));
-    let direction = if of_response <= of_request { Direction::Response } else { Direction::Request };
+    let direction = if of_response <= of_request.saturating_add(allowed) {
+        Direction::Response
+    } else {
+        Direction::Request
+    };
     let length = |length: Length| match length.of(pdu) {
         Some(length) => Message::bytes(length + around),
         None => message!("more bytes"),
     };
     let reason = message!(
         "its length fits neither direction: in function {f} a request has {request} here, a response {response}, and there are {found}",
-        f = function,
+        f = request.function,
         request = length(request.length),
         response = length(response.length),
         found = Message::bytes(pdu.len() + around)
@@ -102,7 +110,7 @@ mod tests {
     use Certainty::{Certain, Likely, Open};
 
     fn guessed(pdu: &[u8]) -> (Direction, Certainty) {
-        let guess = direction(pdu, 3);
+        let guess = direction(pdu, 3, false);
         (guess.direction, guess.certainty)
     }
 
@@ -138,7 +146,9 @@ mod tests {
         assert_eq!(guessed(&[3, 4, 0, 8, 0, 0, 0]), (Direction::Response, Likely));
         // A whole register is missing.
         assert_eq!(guessed(&[3, 4, 0, 8]), (Direction::Response, Likely));
-        // A request while it is typed.
+        assert_eq!(direction(&[3, 4, 0, 8, 0, 0], 3, true).direction, Direction::Response);
+        // A request while it is typed, even where one waits already.
+        assert_eq!(direction(&[3, 0, 200], 3, true).direction, Direction::Request);
         assert_eq!(guessed(&[3, 0]), (Direction::Request, Likely));
         assert_eq!(guessed(&[3, 0, 200]), (Direction::Request, Likely));
         // Five bytes are no whole registers, but there are five.

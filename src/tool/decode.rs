@@ -78,7 +78,7 @@ pub struct Detail {
     /// What the telegram says, as if its check were right.
     pub said: Message,
     pub verdict: Verdict,
-    /// What kind of telegram it is: "Read holding registers (function 3)".
+    /// What kind of telegram it is: "Read holding registers, function 3".
     pub kind: Message,
     /// What the kind is about, for newcomers, and where it is described.
     pub note: &'static str,
@@ -223,20 +223,20 @@ impl Report {
 
     /// Who speaks: by the bytes, and where those leave it open, by the request that waits.
     fn guess(&self, bytes: &[u8], pairing: &Pairing) -> Guess {
-        let guess = dialogue::direction(Rtu::pdu_bytes(bytes), AROUND);
-        let Some(waiting) = pairing.waiting() else { return guess };
-        let asked = &self.telegrams[waiting].line.bytes;
-        let n = waiting + 1;
-        let reason = match guess.certainty {
-            Certainty::Open if asked == bytes => {
-                message!("it repeats telegram {n}, as a response of this function does", n = n)
-            }
-            Certainty::Likely if bytes.get(..2) == asked.get(..2) => {
-                message!("{lengths}; telegram {n} waits for its response", lengths = guess.reason, n = n)
-            }
-            _ => return guess,
-        };
-        Guess { direction: Direction::Response, certainty: Certainty::Likely, reason }
+        let asked = pairing.waiting().map(|index| (index, self.telegrams[index].line.bytes.as_slice()));
+        let awaited = asked.is_some_and(|(_, asked)| asked.get(..2) == bytes.get(..2));
+        let guess = dialogue::direction(Rtu::pdu_bytes(bytes), AROUND, awaited);
+        match asked {
+            Some((index, asked)) if guess.certainty == Certainty::Open && asked == bytes => Guess {
+                direction: Direction::Response,
+                certainty: Certainty::Likely,
+                reason: message!(
+                    "it repeats telegram {n}, as a response of this function does",
+                    n = index + 1
+                ),
+            },
+            _ => guess,
+        }
     }
 }
 
@@ -274,9 +274,9 @@ fn kind_name(label: &'static str, function: Option<u8>) -> Message {
     let label = field::Argument::Term(label);
     match (function & EXCEPTION != 0, plain) {
         (true, _) => message!("{label} to function {plain}", label = label, plain = plain),
-        (false, 0..=9) => message!("{label} (function {plain})", label = label, plain = plain),
+        (false, 0..=9) => message!("{label}, function {plain}", label = label, plain = plain),
         (false, _) => message!(
-            "{label} (function {plain}, {hex})",
+            "{label}, function {plain} ({hex})",
             label = label,
             plain = plain,
             hex = hex_value(plain.into(), 1)

@@ -14,43 +14,43 @@ pub struct Example {
 pub static EXAMPLES: &[Example] = &[
     Example {
         key: "read_holding_registers",
-        label: "Read holding registers (3), with the answer",
+        label: "Read holding registers (3)",
         text: "01 03 00 C8 00 03 84 35\n01 03 06 00 80 42 A4 F1 DE B0 F8",
         broken: false,
     },
     Example {
         key: "read_input_registers",
-        label: "Read input registers (4), with the answer",
+        label: "Read input registers (4)",
         text: "11 04 00 00 00 02 73 5B\n11 04 04 09 29 00 0B 79 D6",
         broken: false,
     },
     Example {
         key: "write_single_register",
-        label: "Write single register (6), and its repetition",
+        label: "Write single register (6)",
         text: "05 06 0C 90 04 01 48 33\n05 06 0C 90 04 01 48 33",
         broken: false,
     },
     Example {
         key: "write_multiple_registers",
-        label: "Write multiple registers (16), with the answer",
+        label: "Write multiple registers (16)",
         text: "01 10 00 D7 00 03 06 00 80 42 F6 E9 79 28 15\n01 10 00 D7 00 03 30 30",
         broken: false,
     },
     Example {
         key: "read_long_registers",
-        label: "KEB: read 32-bit registers (100), with the answer",
+        label: "KEB: read 32-bit registers (100)",
         text: "01 64 5F 32 00 02 42 18\n01 64 08 00 33 01 01 02 00 01 02 99 48",
         broken: false,
     },
     Example {
         key: "write_long_registers",
-        label: "KEB: write 32-bit registers (101), with the answer",
+        label: "KEB: write 32-bit registers (101)",
         text: "01 65 5F 96 00 02 08 02 00 01 02 00 00 00 00 C4 CE\n01 65 5F 96 00 02 3E 3B",
         broken: false,
     },
     Example {
         key: "refused",
-        label: "Refused requests: exceptions 2, 64 and 66",
+        label: "Refused: exceptions 2, 64 and 66",
         text: "01 03 27 10 00 01 8F 7B\n01 83 02 C0 F1\n01 64 20 00 00 3E FA 12\n01 E4 40 6A F0\n\
                01 65 20 0A 00 01 04 00 00 00 05 38 1A\n01 E5 42 EA A1",
         broken: false,
@@ -64,7 +64,7 @@ pub static EXAMPLES: &[Example] = &[
     },
     Example {
         key: "check_failed",
-        label: "A byte has changed: the check fails",
+        label: "A changed byte: the check fails",
         text: "01 03 00 C8 00 03 84 35\n01 03 06 00 08 42 A4 F1 DE B0 F8",
         broken: true,
     },
@@ -82,13 +82,13 @@ pub static EXAMPLES: &[Example] = &[
     },
     Example {
         key: "byte_count_wrong",
-        label: "A right check, but a wrong byte count",
+        label: "Right check, wrong byte count",
         text: "01 03 05 00 80 42 A4 F1 DE 83 F8",
         broken: true,
     },
     Example {
         key: "quantity_too_large",
-        label: "A right check, but more registers than allowed",
+        label: "Right check, too many registers",
         text: "01 03 07 D0 00 7E C5 67",
         broken: true,
     },

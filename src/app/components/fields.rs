@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::strip::{faulty, role_class};
-use crate::app::state::Shown;
+use crate::app::state::{Shown, count};
 use crate::field::{Field, Value, hex};
 
 pub fn fields(shown: &Shown) -> Markup {
@@ -48,7 +48,7 @@ fn row(field: &Field, depth: usize, bytes: &[u8], first: bool) -> Markup {
             td.value role="cell" { (field.value_text()) }
             td.meaning role="cell" {
                 @match (&field.value, field.meaning()) {
-                    (Value::Group, _) => @if group { (field.children.len()) },
+                    (Value::Group, _) => @if group { (count(field.children.len(), "value")) },
                     (_, Some(meaning)) => (meaning),
                     (_, None) => "",
                 }
