@@ -150,7 +150,8 @@ pub fn light(lit: Option<Span>) {
 /// Scrolls the list as little as it takes to show its row `index`. All rows are of one height.
 pub fn keep_in_sight(index: usize) {
     let Some(list) = element::<Element>(LIST) else { return };
-    let row = list.query_selector("[role=option]").ok().flatten().map_or(0, |row| row.client_height());
+    let row = list.query_selector("[role=option]").ok().flatten();
+    let row = row.and_then(|row| row.dyn_into::<HtmlElement>().ok()).map_or(0, |row| row.offset_height());
     let top = index as i32 * row;
     let bottom = top + row - list.client_height();
     list.set_scroll_top(list.scroll_top().min(top).max(bottom));

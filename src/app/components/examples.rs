@@ -11,8 +11,8 @@ pub fn examples() -> Markup {
     let group = |title: &str, broken: bool| {
         html! {
             section {
-                h3 { (title) }
-                ul {
+                p.title aria-hidden="true" { (title) }
+                ul aria-label=(title) {
                     @for example in EXAMPLES.iter().filter(|example| example.broken == broken) {
                         li { button type="button" data-example=(example.key) { (example.label) } }
                     }

@@ -22,7 +22,7 @@ pub fn Header() -> impl IntoView {
             <p class="promise">"Reads field-bus telegrams. Nothing leaves this page."</p>
             <label class="theme">
                 <span>"Theme"</span>
-                <select id="theme" prop:value=theme on:change:target=move |event| choose(event.target().value())>
+                <select id="theme" aria-label="Theme" prop:value=theme on:change:target=move |event| choose(event.target().value())>
                     <option value="">"System"</option>
                     <option value="light">"Light"</option>
                     <option value="dark">"Dark"</option>

@@ -36,10 +36,9 @@ fn group(leaf: &Field, bytes: &[u8]) -> Markup {
             span.name aria-hidden="true" { (label) }
             div.cells {
                 @for (at, byte) in (leaf.span.from..to).zip(&bytes[leaf.span.from..to]) {
-                    button type="button" data-stop="" tabindex=(if at == 0 { "0" } else { "-1" })
-                        aria-label={ "Byte " (at) ": " (format_args!("{byte:02X}")) ", " (name) } {
-                        b { (format_args!("{byte:02X}")) }
-                        small { (at) }
+                    button type="button" data-stop="" data-at=(at) tabindex=(if at == 0 { "0" } else { "-1" })
+                        aria-label={ (format_args!("{byte:02X}")) ", byte " (at) ", " (name) } {
+                        (format_args!("{byte:02X}"))
                     }
                 }
             }

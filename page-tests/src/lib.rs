@@ -1,0 +1,153 @@
+//! A browser with the page in it, as the tests in `tests/` use it.
+//!
+//! `cargo xtask test` builds the page, serves it, starts a WebDriver and runs the tests with what
+//! they need in the environment: `BUSLENS_URL`, `WEBDRIVER_URL`, `BUSLENS_CHROMIUM`, `BUSLENS_AXE`
+//! and `BUSLENS_SCREENSHOTS`.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use serde_json::{Value, json};
+use thirtyfour::LoggingPrefsLogLevel;
+use thirtyfour::prelude::*;
+
+/// What a step of a test gives; the error says what went wrong.
+pub type Result<T = ()> = WebDriverResult<T>;
+
+/// The sizes that the page is looked at in.
+pub const DESKTOP: (u32, u32) = (1440, 900);
+pub const PHONE: (u32, u32) = (390, 844);
+/// The narrowest page that must do without scrolling sideways (WCAG 2.2, 1.4.10).
+pub const NARROW: (u32, u32) = (320, 640);
+
+/// A page of its own in a browser of its own.
+pub struct Page {
+    pub driver: WebDriver,
+}
+
+impl Page {
+    /// Opens the page.
+    pub async fn open((width, height): (u32, u32), dark: bool) -> Result<Self> {
+        let mut options = DesiredCapabilities::chrome();
+        options.set_binary(&setting("BUSLENS_CHROMIUM"))?;
+        for argument in [
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--no-first-run",
+            "--disable-background-networking",
+            "--disable-component-update",
+            "--disable-sync",
+        ] {
+            options.add_arg(argument)?;
+        }
+        options.set_browser_log_level(LoggingPrefsLogLevel::All)?;
+        let driver = WebDriver::new(&setting("WEBDRIVER_URL"), options).await?;
+        let metrics =
+            json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600 });
+        driver.cdp().send_raw("Emulation.setDeviceMetricsOverride", metrics).await?;
+        let scheme = json!({ "name": "prefers-color-scheme", "value": if dark { "dark" } else { "light" } });
+        driver.cdp().send_raw("Emulation.setEmulatedMedia", json!({ "features": [scheme] })).await?;
+        let page = Self { driver };
+        page.driver.goto(setting("BUSLENS_URL")).await?;
+        page.one("#input").await?;
+        Ok(page)
+    }
+
+    /// Closes the browser, whose console must have stayed empty.
+    pub async fn close(self) -> Result {
+        assert_eq!(self.console().await?, [""; 0], "the console");
+        self.driver.quit().await
+    }
+
+    /// The element that `css` finds, waited for.
+    pub async fn one(&self, css: &str) -> Result<WebElement> {
+        self.driver.query(By::Css(css)).wait(Duration::from_secs(10), Duration::from_millis(20)).first().await
+    }
+
+    pub async fn text(&self, css: &str) -> Result<String> {
+        self.one(css).await?.text().await
+    }
+
+    /// The texts of all elements that `css` finds at this moment.
+    pub async fn texts(&self, css: &str) -> Result<Vec<String>> {
+        let mut texts = Vec::new();
+        for element in self.driver.find_all(By::Css(css)).await? {
+            texts.push(element.text().await?);
+        }
+        Ok(texts)
+    }
+
+    pub async fn count(&self, css: &str) -> Result<usize> {
+        Ok(self.driver.find_all(By::Css(css)).await?.len())
+    }
+
+    pub async fn click(&self, css: &str) -> Result {
+        self.one(css).await?.click().await
+    }
+
+    /// Presses keys where the focus is.
+    pub async fn press(&self, keys: impl Into<TypingData>) -> Result {
+        self.driver.active_element().await?.send_keys(keys.into()).await
+    }
+
+    /// Puts `text` in place of the input, as pasting does.
+    pub async fn paste(&self, text: &str) -> Result {
+        let script = "const input = document.getElementById('input'); input.focus(); input.select(); \
+                      document.execCommand(arguments[0] ? 'insertText' : 'delete', false, arguments[0]);";
+        self.driver.execute(script, vec![json!(text)]).await?;
+        self.settle().await
+    }
+
+    /// Waits for the page to be painted.
+    pub async fn settle(&self) -> Result {
+        let script = "const done = arguments[0]; requestAnimationFrame(() => setTimeout(done, 0));";
+        self.driver.execute_async(script, vec![]).await.map(drop)
+    }
+
+    /// What a script gives.
+    pub async fn value(&self, script: &str) -> Result<Value> {
+        Ok(self.driver.execute(script, vec![]).await?.json().clone())
+    }
+
+    /// What axe-core finds, in words.
+    pub async fn accessibility(&self) -> Result<Vec<String>> {
+        let axe = std::fs::read_to_string(setting("BUSLENS_AXE")).expect("axe-core can be read");
+        self.driver.execute(&axe, vec![]).await?;
+        let script = "const done = arguments[0]; axe.run().then((found) => done(found.violations.map((rule) => \
+                      rule.id + ': ' + rule.nodes.map((node) => node.target + ' ' + node.failureSummary).join('; '))));";
+        let found = self.driver.execute_async(script, vec![]).await?;
+        Ok(found.convert()?)
+    }
+
+    /// What came to the browser's console since the last look.
+    pub async fn console(&self) -> Result<Vec<String>> {
+        let entries = self.driver.browser_log().await?;
+        Ok(entries.into_iter().map(|entry| format!("{}: {}", entry.level, entry.message)).collect())
+    }
+
+    /// Lets the page and the tests use the clipboard.
+    pub async fn allow_clipboard(&self) -> Result {
+        let permissions = json!({ "permissions": ["clipboardReadWrite", "clipboardSanitizedWrite"] });
+        self.driver.cdp().send_raw("Browser.grantPermissions", permissions).await.map(drop)
+    }
+
+    pub async fn clipboard(&self) -> Result<String> {
+        self.settle().await?;
+        let script =
+            "navigator.clipboard.readText().then(arguments[0], (error) => arguments[0](String(error)))";
+        Ok(self.driver.execute_async(script, vec![]).await?.convert()?)
+    }
+
+    /// A picture of the whole page for a person to look at.
+    pub async fn picture(&self, name: &str) -> Result {
+        let folder = PathBuf::from(setting("BUSLENS_SCREENSHOTS"));
+        self.settle().await?;
+        self.driver.screenshot(&folder.join(format!("{name}.png"))).await
+    }
+}
+
+fn setting(name: &str) -> String {
+    std::env::var(name)
+        .unwrap_or_else(|_| panic!("{name} is not set: the page's tests are run by `cargo xtask test`"))
+}
