@@ -178,3 +178,28 @@ async fn bytes_are_copied() -> Result {
     assert_eq!(page.clipboard().await?, "01 03 06 00 08 42 A4 F1 DE 50 E7");
     page.close().await
 }
+
+/// Measures and prints, and holds nothing against a noisy machine.
+#[tokio::test(flavor = "multi_thread")]
+async fn keystrokes() -> Result {
+    let page = Page::open(DESKTOP, false).await?;
+    let longest = format!("01 03 FA {}12 34", "42 A4 ".repeat(125));
+    let many = "01 03 00 C8 00 03 84 35\n".repeat(100_000 / 24);
+    for (what, text) in [("a telegram of 255 bytes", longest), ("100,000 characters", many)] {
+        let script = "const [text, done] = arguments; const input = document.getElementById('input'); input.value = text; \
+            const times = []; \
+            const step = () => { const start = performance.now(); input.value = text + (times.length % 2 ? '0' : ''); \
+              input.dispatchEvent(new Event('input', { bubbles: true })); const handled = performance.now() - start; \
+              requestAnimationFrame(() => { const channel = new MessageChannel(); \
+                channel.port1.onmessage = () => { times.push([handled, performance.now() - start]); \
+                  times.length < 21 ? setTimeout(step, 30) : done([0, 1].map((at) => times.map((pair) => pair[at]).sort((a, b) => a - b)[10])); }; \
+                channel.port2.postMessage(0); }); }; step();";
+        let medians: [f64; 2] = page.driver.execute_async(script, vec![json!(text)]).await?.convert()?;
+        println!(
+            "keystroke in {what}: {:.1} ms until handled, {:.1} ms until painted",
+            medians[0], medians[1]
+        );
+        assert!(!page.text(".detail h2").await?.is_empty());
+    }
+    page.close().await
+}

@@ -99,7 +99,6 @@ impl State {
                 decoded.show(index);
             }
         });
-        browser::keep_in_sight(self.decoded.with_untracked(Decoded::index));
         browser::announce(announcement(self.decoded.with_untracked(|decoded| decoded.report.summary())));
     }
 
@@ -129,7 +128,6 @@ impl State {
     pub fn select(&self, index: usize) {
         if index != self.decoded.with_untracked(Decoded::index) {
             self.change(|decoded| decoded.show(index));
-            browser::keep_in_sight(index);
         }
     }
 
@@ -153,7 +151,12 @@ impl State {
     /// Changes what is shown. What was chosen among the bytes before means nothing any more.
     fn change(&self, change: impl FnOnce(&mut Decoded)) {
         self.shine(Light::default());
+        let before = self.decoded.with_untracked(Decoded::index);
         self.decoded.update(change);
+        let index = self.decoded.with_untracked(Decoded::index);
+        if index != before {
+            browser::keep_in_sight(index);
+        }
     }
 }
 

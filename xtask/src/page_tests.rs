@@ -38,7 +38,8 @@ pub fn run() -> Result {
 
     steps::run(
         tools::cargo()
-            .args(["test", "--package", "page-tests"])
+            // What tests measure is printed, too.
+            .args(["test", "--package", "page-tests", "--", "--show-output"])
             .env("BUSLENS_URL", page)
             .env("WEBDRIVER_URL", format!("http://127.0.0.1:{}", driver.port))
             .env("BUSLENS_CHROMIUM", &browser.chromium)

@@ -20,7 +20,8 @@ pub fn Input(state: State) -> impl IntoView {
     let reading = move || state.decoded.with(|decoded| reading(&decoded.text, &decoded.report).into_string());
     let follow_cursor = move || {
         if let Some(area) = browser::element(INPUT) {
-            state.follow_cursor(cursor(&area));
+            let cursor = state.decoded.with_untracked(|decoded| cursor(&area, &decoded.text));
+            state.follow_cursor(cursor);
         }
     };
     let direction = move || state.decoded.with(|decoded| decoded.direction.map_or("auto", Direction::key));
@@ -38,7 +39,9 @@ pub fn Input(state: State) -> impl IntoView {
                     placeholder="01 03 00 C8 00 03 84 35"
                     on:input:target=move |event| {
                         let area = event.target();
-                        state.type_text(area.value(), cursor(&area));
+                        let text = area.value();
+                        let cursor = cursor(&area, &text);
+                        state.type_text(text, cursor);
                         scroll(&area);
                     }
                     on:click=move |_| follow_cursor()
@@ -117,10 +120,10 @@ fn close_menu(event: &Event) {
     }
 }
 
-/// The cursor's place in bytes of the text.
-fn cursor(area: &HtmlTextAreaElement) -> usize {
+/// The cursor's place in bytes of the area's text.
+fn cursor(area: &HtmlTextAreaElement, text: &str) -> usize {
     let at = area.selection_start().ok().flatten().unwrap_or_default();
-    byte_offset(&area.value(), at as usize)
+    byte_offset(text, at as usize)
 }
 
 /// Selects a piece of the text, so that one sees it and can type over it.
