@@ -26,17 +26,13 @@ pub fn marks(decoded: &Decoded, lit: Option<Span>) -> Markup {
         let at = spans.partition_point(|(other, _)| other.from < span.from);
         spans.insert(at, (span, class));
     }
-    // What stands before each mark, the mark, and what stands behind the last one.
+    // What stands before each mark, and the mark. What stands behind the last one needs no layout.
     let ends = std::iter::once(0).chain(spans.iter().map(|(span, _)| span.to));
     let pieces = ends.zip(&spans).filter(|(end, (span, _))| *end <= span.from);
-    let last = spans.last().map_or(0, |(span, _)| span.to);
     html! {
         @for (end, (span, class)) in pieces {
             (piece(end, span.from))
             mark class=(class) { (piece(span.from, span.to)) }
         }
-        (piece(last, text.len()))
-        // A text area shows the empty line after a last line end; a block only does with more behind.
-        "\u{200B}"
     }
 }
