@@ -99,6 +99,21 @@ impl Page {
         self.settle().await
     }
 
+    /// Puts `text` in place of the input as a script does: at once, however long it is.
+    pub async fn fill(&self, text: &str) -> Result {
+        let script = "const input = document.getElementById('input'); input.value = arguments[0]; \
+                      input.dispatchEvent(new Event('input', { bubbles: true }))";
+        self.driver.execute(script, vec![json!(text)]).await?;
+        self.settle().await
+    }
+
+    /// Chooses the telegram at `index` of the list.
+    pub async fn choose(&self, index: usize) -> Result {
+        let script = "document.getElementById(arguments[0]).click()";
+        self.driver.execute(script, vec![json!(format!("telegram-{index}"))]).await?;
+        self.settle().await
+    }
+
     /// Waits for the page to be painted.
     pub async fn settle(&self) -> Result {
         let script = "const done = arguments[0]; requestAnimationFrame(() => setTimeout(done, 0));";
@@ -117,7 +132,7 @@ impl Page {
         let script = "const done = arguments[0]; axe.run().then((found) => done(found.violations.map((rule) => \
                       rule.id + ': ' + rule.nodes.map((node) => node.target + ' ' + node.failureSummary).join('; '))));";
         let found = self.driver.execute_async(script, vec![]).await?;
-        Ok(found.convert()?)
+        found.convert()
     }
 
     /// What came to the browser's console since the last look.
@@ -136,7 +151,7 @@ impl Page {
         self.settle().await?;
         let script =
             "navigator.clipboard.readText().then(arguments[0], (error) => arguments[0](String(error)))";
-        Ok(self.driver.execute_async(script, vec![]).await?.convert()?)
+        self.driver.execute_async(script, vec![]).await?.convert()
     }
 
     /// A picture of the whole page for a person to look at.

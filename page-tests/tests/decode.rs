@@ -213,14 +213,7 @@ async fn every_example_is_shown_and_undone() -> Result {
 async fn a_long_list_is_scrolled_by_keyboard() -> Result {
     let page = Page::open(DESKTOP, false).await?;
     let text = format!("{REQUEST}\n").repeat(4000);
-    page.driver
-        .execute(
-            "const input = document.getElementById('input'); input.value = arguments[0]; \
-             input.dispatchEvent(new Event('input', { bubbles: true }))",
-            vec![json!(text)],
-        )
-        .await?;
-    page.settle().await?;
+    page.fill(&text).await?;
     assert!(page.count("[role=option]").await? < 40, "only rows in sight exist");
     page.driver.execute("document.getElementById('list').focus()", vec![]).await?;
     page.press(Key::End + "").await?;
@@ -238,14 +231,7 @@ async fn hundred_thousand_characters_are_fine() -> Result {
     let page = Page::open(DESKTOP, false).await?;
     for unit in ["01 03 ", "G", "0x", "{", "01 03 00 C8 00 03 84 35\n"] {
         let text = unit.repeat(100_000 / unit.len());
-        page.driver
-            .execute(
-                "const input = document.getElementById('input'); input.value = arguments[0]; \
-                 input.dispatchEvent(new Event('input', { bubbles: true }))",
-                vec![json!(text)],
-            )
-            .await?;
-        page.settle().await?;
+        page.fill(&text).await?;
         assert!(page.count(".strip button").await? <= 300);
     }
     page.paste(REQUEST).await?;

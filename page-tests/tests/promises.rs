@@ -22,13 +22,7 @@ async fn axe_finds_nothing() -> Result {
             page.paste(ALL_SORTS).await?;
             page.click(".layout summary").await?;
             for telegram in 0..4 {
-                page.driver
-                    .execute(
-                        "document.getElementById(arguments[0]).click()",
-                        vec![json!(format!("telegram-{telegram}"))],
-                    )
-                    .await?;
-                page.settle().await?;
+                page.choose(telegram).await?;
                 assert_eq!(page.accessibility().await?, [""; 0], "telegram {telegram}, {name}, {theme}");
             }
             page.picture(&format!("decode-{name}-{theme}")).await?;
@@ -101,13 +95,7 @@ async fn a_narrow_page_does_not_scroll_sideways() -> Result {
     assert_eq!(page.value(wide).await?, json!(0), "empty");
     page.paste(ALL_SORTS).await?;
     for telegram in 0..4 {
-        page.driver
-            .execute(
-                "document.getElementById(arguments[0]).click()",
-                vec![json!(format!("telegram-{telegram}"))],
-            )
-            .await?;
-        page.settle().await?;
+        page.choose(telegram).await?;
         assert_eq!(page.value(wide).await?, json!(0), "telegram {telegram}");
     }
     page.click(".layout summary").await?;

@@ -1,7 +1,7 @@
 //! The form of a telegram: entries that a person can edit, and from them the telegram again.
 
 use super::{Algorithm, Deviation, Deviations, Items, Part, Path, Telegram, WINDOW, Walk, Walker};
-use crate::field::{Format, Message, Numbering, Severity, Spec, hex, hex_value};
+use crate::field::{Format, Message, Numbering, Spec, hex, hex_value};
 use crate::message;
 
 /// What a person can edit of a telegram.
@@ -247,12 +247,6 @@ impl Walker for Show<'_> {
         self.computed(spec, algorithm.width);
         Ok(())
     }
-
-    fn mark(&self) -> usize {
-        0
-    }
-
-    fn remark(&mut self, _: &'static Spec, _: Severity, _: &'static str, _: Message) {}
 }
 
 /// Entries to value.
@@ -384,12 +378,6 @@ impl Walker for Fill<'_> {
         self.computed(spec);
         Ok(())
     }
-
-    fn mark(&self) -> usize {
-        0
-    }
-
-    fn remark(&mut self, _: &'static Spec, _: Severity, _: &'static str, _: Message) {}
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The reference of a telegram: what stands where.
 
 use super::{Algorithm, Items, Part, Telegram, Walk, Walker};
-use crate::field::{Message, Severity, Spec};
+use crate::field::Spec;
 
 /// One field, list or group of a telegram's layout.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -119,10 +119,4 @@ impl Walker for Guide {
         self.fixed(spec, algorithm.width, None);
         Ok(())
     }
-
-    fn mark(&self) -> usize {
-        0
-    }
-
-    fn remark(&mut self, _: &'static Spec, _: Severity, _: &'static str, _: Message) {}
 }

@@ -92,12 +92,14 @@ pub trait Walker {
     /// Check bytes over everything from `from` (a [`mark`](Self::mark)) to here.
     fn checksum(&mut self, spec: &'static Spec, algorithm: &'static Algorithm, from: usize) -> Walk;
 
-    /// The present place, for [`checksum`](Self::checksum).
-    fn mark(&self) -> usize;
+    /// The present place, for [`checksum`](Self::checksum). Walkers without bytes have only one.
+    fn mark(&self) -> usize {
+        0
+    }
 
     /// Says of the field `spec`, walked just before at the same level, what its own limits cannot
-    /// say: a rule that involves other fields.
-    fn remark(&mut self, spec: &'static Spec, severity: Severity, code: &'static str, message: Message);
+    /// say: a rule that involves other fields. Only the reader listens.
+    fn remark(&mut self, _spec: &'static Spec, _severity: Severity, _code: &'static str, _message: Message) {}
 }
 
 /// A list's items, whatever their type, for [`Walker::items`].

@@ -1,5 +1,5 @@
 use super::{Algorithm, Items, Part, Telegram, Walk, Walker};
-use crate::field::{Message, Severity, Spec};
+use crate::field::Spec;
 
 /// Fills `telegram` with random values that keep the limits of their fields.
 ///
@@ -72,10 +72,4 @@ impl Walker for Sampler<'_> {
     fn checksum(&mut self, _: &'static Spec, _: &'static Algorithm, _: usize) -> Walk {
         Ok(())
     }
-
-    fn mark(&self) -> usize {
-        0
-    }
-
-    fn remark(&mut self, _: &'static Spec, _: Severity, _: &'static str, _: Message) {}
 }

@@ -1,5 +1,5 @@
 use super::{Algorithm, Deviation, Deviations, Items, Part, Path, Telegram, WINDOW, Walk, Walker};
-use crate::field::{Message, Severity, Spec};
+use crate::field::Spec;
 
 /// The bytes of `telegram`, with what `deviations` say to be otherwise.
 pub fn write(telegram: &mut dyn Telegram, deviations: &Deviations) -> Vec<u8> {
@@ -116,6 +116,4 @@ impl Walker for Writer<'_> {
     fn mark(&self) -> usize {
         self.bytes.len()
     }
-
-    fn remark(&mut self, _: &'static Spec, _: Severity, _: &'static str, _: Message) {}
 }

@@ -33,7 +33,7 @@ pub fn run() -> Result {
 
     let listener = server::listen(0)?;
     let page = server::address(server::port(&listener)?);
-    server::start(listener, Path::new(build::DIST));
+    server::start(listener, Path::new(build::DIST))?;
     let driver = Driver::start(&browser.driver)?;
 
     steps::run(

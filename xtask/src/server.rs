@@ -1,10 +1,10 @@
 //! A static web server for this machine alone: for work on the page, and for its tests.
 
-use std::fs::File;
-use std::io::{self, Read, Write};
-use std::net::{Ipv4Addr, TcpListener, TcpStream};
+use std::io::{self, Cursor};
+use std::net::{Ipv4Addr, TcpListener};
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+
+use tiny_http::{Header, Method, Response, Server};
 
 use crate::steps::Result;
 
@@ -12,9 +12,6 @@ pub const USUAL_PORT: &str = "8080";
 
 /// How many ports after the wanted one are tried.
 const PORTS_TRIED: u16 = 100;
-
-/// More than a browser sends for a page without cookies.
-const LONGEST_REQUEST: u64 = 32 * 1024;
 
 /// Takes the wanted port, or the next free one; 0 takes any.
 pub fn listen(wanted: u16) -> Result<TcpListener> {
@@ -44,81 +41,49 @@ pub fn address(port: u16) -> String {
     format!("http://{}:{port}/", Ipv4Addr::LOCALHOST)
 }
 
-/// Serves the folder in threads of its own until the program ends.
-pub fn start(listener: TcpListener, folder: &'static Path) {
+/// Serves the folder in a thread of its own until the program ends.
+pub fn start(listener: TcpListener, folder: &'static Path) -> Result {
+    let server = Server::from_listener(listener, None)
+        .map_err(|error| format!("The server did not start: {error}."))?;
     std::thread::spawn(move || {
-        for stream in listener.incoming().flatten() {
+        for request in server.incoming_requests() {
+            let response = respond(request.method(), request.url(), folder);
             // A browser that goes away in the middle of an answer is no error to report.
-            std::thread::spawn(move || answer(stream, folder));
+            let _ = request.respond(response);
         }
     });
+    Ok(())
 }
 
-/// Reads one request and answers it. Each connection serves one request only.
-fn answer(mut stream: TcpStream, folder: &Path) -> io::Result<()> {
-    // Browsers open connections that they may never use.
-    stream.set_read_timeout(Some(Duration::from_secs(10)))?;
-    let head = request_head(&mut stream)?;
-    let response = respond(&head, folder);
-
-    write!(
-        stream,
-        "HTTP/1.1 {}\r\nContent-Type: {}\r\nContent-Length: {}\r\n\
-         Content-Security-Policy: frame-ancestors 'none'\r\n\
-         X-Content-Type-Options: nosniff\r\nCache-Control: no-store\r\n\
-         Connection: close\r\n\r\n",
-        response.status,
-        response.content_type,
-        response.body.len(),
-    )?;
-    if !head.starts_with(b"HEAD ") {
-        stream.write_all(&response.body)?;
-    }
-    stream.flush()
-}
-
-/// The request up to its empty line.
-fn request_head(stream: &mut TcpStream) -> io::Result<Vec<u8>> {
-    let mut head = Vec::new();
-    let mut part = [0; 4096];
-    while !head.windows(4).any(|bytes| bytes == b"\r\n\r\n") {
-        let length = stream.read(&mut part)?;
-        if length == 0 || (head.len() + length) as u64 > LONGEST_REQUEST {
-            return Err(io::ErrorKind::InvalidData.into());
-        }
-        head.extend(&part[..length]);
-    }
-    Ok(head)
-}
-
-struct Response {
-    status: &'static str,
-    content_type: &'static str,
-    body: Vec<u8>,
-}
-
-fn respond(head: &[u8], folder: &Path) -> Response {
-    let line = head.split(|&byte| byte == b'\r').next().unwrap_or_default();
-    let line = String::from_utf8_lossy(line);
-    let mut words = line.split(' ');
-    let (method, target) = (words.next().unwrap_or(""), words.next().unwrap_or(""));
-    if !matches!(method, "GET" | "HEAD") {
-        return sentence("405 Method Not Allowed", "This server only hands out files.");
+fn respond(method: &Method, target: &str, folder: &Path) -> Response<Cursor<Vec<u8>>> {
+    let sentence = |status: u16, text: &str| {
+        response(status, "text/plain; charset=utf-8", format!("{text}\n").into_bytes())
+    };
+    if !matches!(method, Method::Get | Method::Head) {
+        return sentence(405, "This server only hands out files.");
     }
     let Some(path) = file_path(target) else {
-        return sentence("400 Bad Request", "That is not the address of a file here.");
+        return sentence(400, "That is not the address of a file here.");
     };
-    let mut body = Vec::new();
-    let read = File::open(folder.join(&path)).and_then(|mut file| file.read_to_end(&mut body));
-    if read.is_err() {
-        let text = format!("There is no file {} here.", path.display());
-        return sentence("404 Not Found", &text);
+    match std::fs::read(folder.join(&path)) {
+        Ok(content) => response(200, content_type(&path), content),
+        Err(_) => sentence(404, &format!("There is no file {} here.", path.display())),
     }
-    Response { status: "200 OK", content_type: content_type(&path), body }
 }
 
-fn sentence(status: &'static str, text: &str) -> Response {
-    Response { status, content_type: "text/plain; charset=utf-8", body: format!("{text}\n").into_bytes() }
+fn response(status: u16, content_type: &str, body: Vec<u8>) -> Response<Cursor<Vec<u8>>> {
+    let headers = [
+        ("Content-Type", content_type),
+        ("Content-Security-Policy", "frame-ancestors 'none'"),
+        ("X-Content-Type-Options", "nosniff"),
+        ("Cache-Control", "no-store"),
+    ];
+    // With its length, not in chunks: the browser then knows how much is to come.
+    let mut response = Response::from_data(body).with_status_code(status).with_chunked_threshold(usize::MAX);
+    for header in headers.iter().flat_map(|(name, value)| Header::from_bytes(*name, *value)) {
+        response.add_header(header);
+    }
+    response
 }
 
 /// The file that a request's target means, relative to the served folder; `None` for a target that

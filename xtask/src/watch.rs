@@ -25,7 +25,7 @@ pub fn serve(wanted: u16) -> Result {
         println!("Port {wanted} is taken; serving on {port} instead.");
     }
     let address = server::address(port);
-    server::start(listener, Path::new(build::DIST));
+    server::start(listener, Path::new(build::DIST))?;
     println!("Buslens is at {address} and is rebuilt after each change. Ctrl+C ends this.");
 
     loop {
