@@ -199,6 +199,14 @@ async fn every_example_is_shown_and_undone() -> Result {
         assert!(broken || !example.broken, "{}", example.key);
         assert_eq!(page.count("#examples[open]").await?, 0, "the menu closes");
     }
+    // The menu closes as well where one goes elsewhere.
+    page.click("#examples summary").await?;
+    assert_eq!(page.count("#examples[open]").await?, 1);
+    page.press(Key::Escape + "").await?;
+    assert_eq!(page.count("#examples[open]").await?, 0, "by the escape key");
+    page.click("#examples summary").await?;
+    page.click("#input").await?;
+    assert_eq!(page.count("#examples[open]").await?, 0, "by a click elsewhere");
     // What was typed before is not lost.
     for _ in EXAMPLES {
         page.one("#input").await?.send_keys(Key::Control + "z").await?;

@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use gloo_timers::callback::Timeout;
 use leptos::prelude::*;
 use wasm_bindgen::JsCast;
-use web_sys::{Element, Event, HtmlDocument, HtmlElement, HtmlTextAreaElement};
+use web_sys::{Element, Event, FocusEvent, HtmlDocument, HtmlElement, HtmlTextAreaElement};
 
 use crate::field::Span;
 
@@ -88,8 +88,6 @@ pub fn replace_undoably(id: &str, text: &str) {
             let _ = area.dispatch_event(&event);
         }
     }
-    let _ = area.set_selection_range(0, 0);
-    area.set_scroll_top(0);
 }
 
 thread_local! {
@@ -111,6 +109,13 @@ pub fn announce(text: String) {
 /// The element at or above the event's target that `selector` fits.
 pub fn closest(event: &Event, selector: &str) -> Option<Element> {
     event.target()?.dyn_into::<Element>().ok()?.closest(selector).ok()?
+}
+
+/// Whether the focus only moves within the element `selector` around it.
+pub fn stays_within(event: &FocusEvent, selector: &str) -> bool {
+    let to = event.related_target().and_then(|to| to.dyn_into::<Element>().ok());
+    let around = |element: &Element| element.closest(selector).ok().flatten();
+    to.is_some_and(|to| around(&to) == closest(event, selector))
 }
 
 /// The value of the attribute `name` at or above the event's target.

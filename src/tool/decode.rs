@@ -1,5 +1,5 @@
 use crate::dialogue::{self, Certainty, Guess, Pairing};
-use crate::field::{self, Check, Direction, Field, Message, Problem, Severity, Value, hex_value};
+use crate::field::{self, Check, Direction, Field, Message, Problem, Value, hex_value};
 use crate::frame::modbus_rtu::{AROUND, BROADCAST, Rtu, SHORTEST};
 use crate::message;
 use crate::modbus::{Access, EXCEPTION};
@@ -248,11 +248,6 @@ impl Telegram {
         }
         let reading = walk::read(&mut rtu, &self.line.bytes);
         (rtu, reading)
-    }
-
-    /// Whether something in the text was not understood.
-    pub fn has_text_errors(&self) -> bool {
-        self.line.remarks.iter().any(|remark| remark.severity == Severity::Error)
     }
 }
 

@@ -79,6 +79,11 @@ pub fn Input(state: State) -> impl IntoView {
                             close_menu(&event);
                         }
                     }
+                    on:focusout=move |event| {
+                        if !browser::stays_within(&event, "details") {
+                            close_menu(&event);
+                        }
+                    }
                 >
                     <summary>"Examples"</summary>
                     <div class="examples" inner_html=examples::examples().into_string()></div>
