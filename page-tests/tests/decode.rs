@@ -49,7 +49,11 @@ async fn several_lines_are_a_list_and_answers_find_their_requests() -> Result {
     page.settle().await?;
     assert!(page.text(".detail .title").await?.starts_with("Telegram 3 of 3 · Modbus RTU telegram"));
     // Function 6 leaves open who speaks; a person can say so.
-    assert!(page.text(".kind").await?.contains("request and response look the same"));
+    assert!(
+        page.text(".kind")
+            .await?
+            .contains("Request or response? In function 6, request and response look the same")
+    );
     page.one("#direction option[value=response]").await?.click().await?;
     page.settle().await?;
     assert!(page.text(".detail h2").await?.starts_with("Unit 5 confirms: holding register 3216"));

@@ -178,7 +178,7 @@ impl Report {
         let function = (bytes.len() > 1).then_some(rtu.pdu.function);
         let said = match missing(&reading.fields) {
             Some(label) => message!(
-                "{kind}, but {label} is missing",
+                "{kind}, cut off: {label} is incomplete",
                 kind = field::Argument::Term(rtu.pdu.kind.spec.label),
                 label = label
             ),

@@ -251,7 +251,8 @@ impl Walker for Reader<'_> {
         }
         if walk.is_err() {
             let message = message!(
-                "{count} announced, {there} there: the telegram ends before the list does",
+                "{label}: {count} announced, {there} there; the telegram ends before the list does",
+                label = Argument::Term(spec.label),
                 count = count,
                 there = there
             );

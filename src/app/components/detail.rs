@@ -142,11 +142,11 @@ fn reading(shown: &Shown) -> Markup {
         p.kind {
             (shown.detail.kind) ". "
             @match telegram.guess.certainty {
-                Certainty::Certain => { "A " (direction) ": " },
-                Certainty::Likely => { "Taken for a " (direction) ": " },
-                Certainty::Open => "Request or response? ",
+                Certainty::Certain => { "A " (direction) ": " (telegram.guess.reason) },
+                Certainty::Likely => { "Taken for a " (direction) ": " (telegram.guess.reason) },
+                Certainty::Open => { "Request or response? " (telegram.guess.reason.sentence()) },
             }
-            (telegram.guess.reason) "."
+            "."
         }
         (problems(shown))
         div.bar {
