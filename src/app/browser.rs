@@ -131,6 +131,11 @@ pub fn span(event: &Event) -> Option<Span> {
 /// The attribute of elements that stand for bytes of the telegram: `3-5`.
 pub const SPAN: &str = "data-span";
 
+/// What that attribute holds.
+pub fn span_text(span: Span) -> String {
+    format!("{}-{}", span.from, span.to)
+}
+
 fn parse_span(text: &str) -> Option<Span> {
     let (from, to) = text.split_once('-')?;
     Some(Span::new(from.parse().ok()?, to.parse().ok()?))

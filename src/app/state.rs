@@ -72,7 +72,6 @@ impl Decoded {
 
     fn decode(&mut self) {
         self.report = decode(&self.text, Options { direction: self.direction });
-        self.show(self.index());
     }
 
     /// Shows telegram `index`, or the last one if there are fewer.
@@ -95,9 +94,7 @@ impl State {
         self.change(|decoded| {
             decoded.text = text;
             decoded.decode();
-            if let Some(index) = telegram_at(&decoded.report, cursor) {
-                decoded.show(index);
-            }
+            decoded.show(telegram_at(&decoded.report, cursor).unwrap_or(decoded.index()));
         });
         browser::announce(announcement(self.decoded.with_untracked(|decoded| decoded.report.summary())));
     }
@@ -121,6 +118,7 @@ impl State {
         self.change(|decoded| {
             decoded.direction = direction;
             decoded.decode();
+            decoded.show(decoded.index());
         });
     }
 

@@ -72,6 +72,13 @@ pub enum Numbering {
     Offset(u64),
 }
 
+impl Numbering {
+    /// The number of the item `offset` places behind the first one, whose number may be known.
+    pub fn new(first: Option<u64>, offset: u64) -> Self {
+        first.map_or(Self::Offset(offset), |first| Self::At(first + offset))
+    }
+}
+
 /// A field of one telegram, with the bytes it was read from and the fields within it.
 ///
 /// The leaves of a telegram's tree tile its bytes: each byte belongs to exactly one leaf.

@@ -293,8 +293,8 @@ impl Scan<'_> {
         if names || opens { equals + 1 } else { 0 }
     }
 
-    /// A quoted string: with escapes in it, or marked as bytes, each character is a byte; otherwise
-    /// it holds hex, and only the quote is passed.
+    /// A quoted string: with escapes in it, each character is a byte; otherwise it holds hex, and
+    /// only the quote is passed.
     fn quoted(&mut self, at: usize) -> usize {
         let quote = self.letters[at].c;
         let mut end = at + 1;

@@ -90,8 +90,6 @@ pub struct Detail {
     pub start: Option<u16>,
     pub count: Option<usize>,
     pub values: Vec<u32>,
-    /// How every telegram of this kind is laid out.
-    pub layout: Vec<guide::Row>,
 }
 
 impl Detail {
@@ -197,9 +195,14 @@ impl Report {
             start: access.and_then(|access| access.start),
             count: access.map(|access| access.count),
             values: access.map_or(Vec::new(), |access| access.values.to_vec()),
-            layout: guide::guide(&mut Rtu { unit: rtu.unit, pdu: rtu.pdu.kind.pdu() }),
             fields: reading.fields,
         })
+    }
+
+    /// How every telegram of the kind of telegram `index` is laid out.
+    pub fn layout(&self, index: usize) -> Vec<guide::Row> {
+        let telegram = self.telegrams.get(index);
+        telegram.map_or(Vec::new(), |telegram| guide::guide(&mut telegram.expected()))
     }
 
     fn add(&mut self, line: Line, options: Options, pairing: &mut Pairing) {
@@ -241,8 +244,13 @@ impl Report {
 }
 
 impl Telegram {
+    /// A frame of this telegram's kind with nothing read into it yet.
+    fn expected(&self) -> Rtu {
+        Rtu::expect(&self.line.bytes, self.guess.direction)
+    }
+
     fn read(&self, asked: Option<&Access<'_>>) -> (Rtu, walk::Reading) {
-        let mut rtu = Rtu::expect(&self.line.bytes, self.guess.direction);
+        let mut rtu = self.expected();
         if let Some(asked) = asked {
             rtu.pdu.body.answer(asked);
         }

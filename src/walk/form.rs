@@ -69,7 +69,7 @@ pub struct Misfit {
 pub fn form(telegram: &mut dyn Telegram, deviations: &Deviations) -> Form {
     let computed = super::write::compute(telegram, deviations);
     let mut show =
-        Show { level: Vec::new(), path: Path::default(), deviations, computed: &computed, first: None };
+        Show { level: Vec::new(), path: Path::default(), deviations, computed: &computed, number: None };
     // The form never stops a walk.
     let _ = telegram.walk(&mut show);
     show.close_window(String::new());
@@ -143,13 +143,13 @@ struct Show<'a> {
     deviations: &'a Deviations,
     computed: &'a Deviations,
     /// The number of the list item at hand.
-    first: Option<Numbering>,
+    number: Option<Numbering>,
 }
 
 impl Show<'_> {
     fn entry(&mut self, spec: &'static Spec, content: Content) {
         let path = self.path.join(spec.key);
-        self.level.push(Entry { spec, number: self.first.take(), path, content });
+        self.level.push(Entry { spec, number: self.number.take(), path, content });
     }
 
     fn computed(&mut self, spec: &'static Spec, width: usize) {
@@ -210,25 +210,23 @@ impl Walker for Show<'_> {
     }
 
     fn items(&mut self, spec: &'static Spec, items: &mut dyn Items, _: usize, first: Option<u64>) -> Walk {
-        let list_path = self.path.clone();
+        let path = self.path.join(spec.key);
         let depth = self.path.enter(spec.key);
         let mut shown = Vec::new();
         for index in 0..items.len() {
             let depth = self.path.enter_item(index);
-            let offset = index as u64;
-            self.first = Some(first.map_or(Numbering::Offset(offset), |first| Numbering::At(first + offset)));
+            self.number = Some(Numbering::new(first, index as u64));
             shown.push(self.nested(|show| items.walk(index, show))?);
             self.path.leave(depth);
         }
         self.path.leave(depth);
-        let path = list_path.join(spec.key);
         self.level.push(Entry { spec, number: None, path, content: Content::List { items: shown } });
         Ok(())
     }
 
     fn within(&mut self, spec: &'static Spec, part: Part<'_>) -> Walk {
         let path = self.path.join(spec.key);
-        let number = self.first.take();
+        let number = self.number.take();
         let depth = self.path.enter(spec.key);
         let entries = self.nested(|show| part(show))?;
         self.path.leave(depth);

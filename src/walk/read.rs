@@ -246,8 +246,7 @@ impl Walker for Reader<'_> {
         });
         let Some(list) = self.fields.last_mut() else { return walk };
         for (offset, item) in (0..).zip(&mut list.children) {
-            item.number =
-                Some(first.map_or(Numbering::Offset(offset), |first| Numbering::At(first + offset)));
+            item.number = Some(Numbering::new(first, offset));
         }
         if walk.is_err() {
             let message = message!(

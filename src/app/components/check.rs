@@ -2,8 +2,9 @@
 
 use maud::{Markup, html};
 
+use crate::app::browser::span_text;
 use crate::app::state::Shown;
-use crate::field::{hex, hex_value};
+use crate::field::{Span, hex, hex_value};
 
 pub fn check(shown: &Shown) -> Markup {
     let Some(check) = shown.detail.check() else { return html! {} };
@@ -12,7 +13,7 @@ pub fn check(shown: &Shown) -> Markup {
     let computed = check.computed_bytes();
     let explained = html! {
         (check.kind.to_ascii_uppercase()) " over "
-        button.link type="button" data-span={ "0-" (covered) } { "bytes 0 to " (covered - 1) }
+        button.link type="button" data-span=(span_text(Span::new(0, covered))) { "bytes 0 to " (covered - 1) }
         " gives " code { (hex_value(check.computed_value(), check.width)) }
         ", on the wire low byte first: " code { (computed) } "."
     };

@@ -17,8 +17,11 @@ pub fn Telegram(state: State) -> impl IntoView {
         markup.into_string()
     };
     let layout = move || {
-        let shown = |decoded: &Decoded| decoded.shown.as_ref().map(|shown| layout::layout(&shown.detail));
-        state.decoded.with(shown).map(Markup::into_string).unwrap_or_default()
+        let layout = |decoded: &Decoded| {
+            let shown = decoded.shown.as_ref()?;
+            Some(layout::layout(&shown.detail, &decoded.report.layout(shown.index)))
+        };
+        state.decoded.with(layout).map(Markup::into_string).unwrap_or_default()
     };
     view! {
         <section
@@ -170,7 +173,7 @@ fn problems(shown: &Shown) -> Markup {
                         Severity::Warning => ("warning", "Warning"),
                     };
                     li class=(class) {
-                        button type="button" data-span={ (problem.span.from) "-" (problem.span.to) } {
+                        button type="button" data-span=(browser::span_text(problem.span)) {
                             span.unseen { (word) ": " }
                             span { (problem.message.sentence()) "." }
                         }

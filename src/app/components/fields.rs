@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 
 use super::strip::{faulty, role_class};
+use crate::app::browser::span_text;
 use crate::app::state::{Shown, count};
 use crate::field::{Field, Value, hex};
 
@@ -34,7 +35,7 @@ fn row(field: &Field, depth: usize, bytes: &[u8], first: bool) -> Markup {
     let group = !field.children.is_empty();
     html! {
         tr role="row" class={ (role_class(field.spec.role)) (faulty(field)) }
-            data-span={ (span.from) "-" (span.to) } data-depth=(depth) {
+            data-span=(span_text(span)) data-depth=(depth) {
             th role="rowheader" scope="row" {
                 button.field.group[group] type="button" data-stop="" tabindex=(if first { "0" } else { "-1" })
                     aria-expanded=[group.then_some("true")] title=(field.spec.note) {

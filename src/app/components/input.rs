@@ -192,7 +192,7 @@ fn remarks(text: &str, report: &Report) -> Markup {
                 @for remark in first {
                     @let (line, column) = place(text, remark.span.from);
                     li class=(if remark.severity == Severity::Error { "error" } else { "warning" }) {
-                        button.place type="button" data-span={ (remark.span.from) "-" (remark.span.to) } {
+                        button.place type="button" data-span=(browser::span_text(remark.span)) {
                             "Line " (line) ", character " (column)
                         }
                         " " (remark.message.sentence()) "."

@@ -6,8 +6,8 @@ use super::strip::role_class;
 use crate::field::Message;
 use crate::tool::{Detail, Row, Size};
 
-pub fn layout(detail: &Detail) -> Markup {
-    let rows = || detail.layout.iter().filter(|row| row.size != Size::Group);
+pub fn layout(detail: &Detail, layout: &[Row]) -> Markup {
+    let rows = || layout.iter().filter(|row| row.size != Size::Group);
     html! {
         p { (detail.note) }
         div.boxes aria-hidden="true" {

@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use crate::app::browser::span_text;
 use crate::app::state::Shown;
 use crate::field::{Field, Numbering, Role, Severity};
 
@@ -32,7 +33,7 @@ fn group(leaf: &Field, bytes: &[u8]) -> Markup {
     let to = leaf.span.to.min(MOST);
     html! {
         div class={ "group " (role_class(leaf.spec.role)) (faulty(leaf)) }
-            data-span={ (leaf.span.from) "-" (leaf.span.to) } {
+            data-span=(span_text(leaf.span)) {
             span.name aria-hidden="true" { (label) }
             div.cells {
                 @for (at, byte) in (leaf.span.from..to).zip(&bytes[leaf.span.from..to]) {
