@@ -22,7 +22,7 @@ fn one_telegram(c: &mut Criterion) {
     assert!(Rtu::check_matches(&bytes));
     c.bench_function("255 bytes into the tree of fields", |b| {
         b.iter(|| {
-            let mut rtu = Rtu::expect(black_box(&bytes), Direction::Response);
+            let mut rtu = Rtu::expect(black_box(&bytes), Direction::Response, &buslens::modbus::STANDARD);
             walk::read(&mut rtu, &bytes)
         });
     });

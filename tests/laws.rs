@@ -2,7 +2,7 @@
 
 use buslens::field::{Direction, Field, Value, leaves, problems};
 use buslens::frame::modbus_rtu::{AROUND, Rtu, SHORTEST};
-use buslens::modbus::{KINDS, Kind, Length, OTHER_KINDS, Pdu};
+use buslens::modbus::{KINDS, Kind, Length, OTHER_KINDS, Pdu, STANDARD};
 use buslens::tool::{Options, Verdict, decode};
 use buslens::walk::{self, Deviations, form, guide};
 use proptest::prelude::*;
@@ -31,7 +31,7 @@ fn bytes() -> impl Strategy<Value = Vec<u8>> {
 }
 
 fn empty(kind: &'static Kind) -> Rtu {
-    Rtu { unit: 1, pdu: kind.pdu() }
+    Rtu { unit: 1, pdu: kind.pdu(&STANDARD) }
 }
 
 /// A valid telegram of `kind`, random by `seed`.
@@ -75,7 +75,7 @@ proptest! {
 
     #[test]
     fn leaves_tile_any_bytes(bytes in bytes(), direction in direction()) {
-        let mut rtu = Rtu::expect(&bytes, direction);
+        let mut rtu = Rtu::expect(&bytes, direction, &STANDARD);
         let reading = walk::read(&mut rtu, &bytes);
         assert_tiled(&reading.fields, bytes.len());
         // Saying it does not panic either.
@@ -85,7 +85,7 @@ proptest! {
     /// Any bytes at all are a value with deviations, and come back from it.
     #[test]
     fn any_bytes_are_written_again(bytes in bytes(), direction in direction()) {
-        let mut rtu = Rtu::expect(&bytes, direction);
+        let mut rtu = Rtu::expect(&bytes, direction, &STANDARD);
         let deviations = walk::read(&mut rtu, &bytes).deviations(&mut rtu);
         prop_assert_eq!(walk::write(&mut rtu, &deviations), bytes);
     }
@@ -94,7 +94,7 @@ proptest! {
     fn a_valid_telegram_has_no_problems_and_no_deviations(kind in kind(), seed: u64) {
         let mut rtu = sample(kind, seed);
         let bytes = write(&mut rtu);
-        let mut read = Rtu::expect(&bytes, kind.direction);
+        let mut read = Rtu::expect(&bytes, kind.direction, &STANDARD);
         let reading = walk::read(&mut read, &bytes);
         assert_tiled(&reading.fields, bytes.len());
         let found = codes(&reading.fields);
@@ -113,10 +113,10 @@ proptest! {
 
     #[test]
     fn a_form_gives_the_same_telegram(bytes in bytes(), direction in direction()) {
-        let mut rtu = Rtu::expect(&bytes, direction);
+        let mut rtu = Rtu::expect(&bytes, direction, &STANDARD);
         let deviations = walk::read(&mut rtu, &bytes).deviations(&mut rtu);
         let shown = form::form(&mut rtu, &deviations);
-        let mut filled = Rtu { unit: 0, pdu: Pdu::expect(rtu.pdu.function, direction) };
+        let mut filled = Rtu { unit: 0, pdu: Pdu::expect(rtu.pdu.function, direction, &STANDARD) };
         let entered = form::fill(&mut filled, &shown).expect("a form fills what it was made of");
         prop_assert_eq!(&form::form(&mut filled, &entered), &shown);
         prop_assert_eq!(walk::write(&mut filled, &entered), bytes);
@@ -126,7 +126,7 @@ proptest! {
     fn each_shorter_prefix_says_what_is_missing(kind in kind(), seed: u64, cut: prop::sample::Index) {
         let bytes = write(&mut sample(kind, seed));
         let prefix = &bytes[..cut.index(bytes.len())];
-        let mut rtu = Rtu::expect(prefix, kind.direction);
+        let mut rtu = Rtu::expect(prefix, kind.direction, &STANDARD);
         let found = codes(&walk::read(&mut rtu, prefix).fields);
         // Nothing tells how much data an unknown function has.
         let told = kind.length != Length::Open || prefix.len() < SHORTEST;
@@ -139,7 +139,7 @@ proptest! {
         let place = place.index(bytes.len());
         bytes[place] ^= 1u8 << bit;
         for direction in [Direction::Request, Direction::Response] {
-            let mut rtu = Rtu::expect(&bytes, direction);
+            let mut rtu = Rtu::expect(&bytes, direction, &STANDARD);
             let reading = walk::read(&mut rtu, &bytes);
             assert_tiled(&reading.fields, bytes.len());
             prop_assert!(codes(&reading.fields).contains(&"check-failed"));

@@ -2,7 +2,7 @@
 //! our responses are understood by it.
 
 use buslens::field::Direction;
-use buslens::modbus::KINDS;
+use buslens::modbus::{KINDS, STANDARD};
 use buslens::tool::{Detail, Options, Verdict, decode};
 use proptest::prelude::*;
 use rmodbus::ModbusProto;
@@ -59,7 +59,7 @@ proptest! {
         let mut client = ModbusRequest::new(unit, ModbusProto::Rtu);
         client.generate_get_holdings(0, values.len() as u16, &mut Vec::new()).expect("a request");
         let kind = KINDS.iter().find(|kind| kind.spec.key == "read_holding_registers_response").expect("listed");
-        let mut rtu = buslens::frame::modbus_rtu::Rtu { unit, pdu: kind.pdu() };
+        let mut rtu = buslens::frame::modbus_rtu::Rtu { unit, pdu: kind.pdu(&STANDARD) };
         let mut rest = values.iter();
         buslens::walk::sample(&mut rtu, &mut |most| match most {
             // The unit, then the number of registers, then each of them.

@@ -1,6 +1,6 @@
 use crate::field::{Direction, Message};
 use crate::message;
-use crate::modbus::{EXCEPTION, KINDS, Kind, Length, Pdu};
+use crate::modbus::{Dialect, EXCEPTION, KINDS, Kind, Length, Pdu};
 
 /// Who speaks in a telegram, as far as its bytes tell.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,7 +27,7 @@ pub enum Certainty {
 ///
 /// `around` is how many bytes its frame has besides: people count the frame's bytes. `awaited` says
 /// that a request of the same function waits for its response.
-pub fn direction(pdu: &[u8], around: usize, awaited: bool) -> Guess {
+pub fn direction(pdu: &[u8], around: usize, awaited: bool, dialect: &'static Dialect) -> Guess {
     let Some(function) = pdu.first().copied() else {
         return Guess {
             direction: Direction::Request,
@@ -44,8 +44,8 @@ pub fn direction(pdu: &[u8], around: usize, awaited: bool) -> Guess {
         let reason = message!("function {f} is not known: both directions are possible", f = function);
         return Guess { direction: Direction::Request, certainty: Certainty::Open, reason };
     }
-    let request = Pdu::kind(function, Direction::Request);
-    let response = Pdu::kind(function, Direction::Response);
+    let request = Pdu::kind(function, Direction::Request, dialect);
+    let response = Pdu::kind(function, Direction::Response, dialect);
     match (request.length.fits(pdu), response.length.fits(pdu)) {
         (true, false) => Guess {
             direction: Direction::Request,
@@ -107,10 +107,11 @@ fn slips(length: Length, pdu: &[u8]) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::modbus::STANDARD;
     use Certainty::{Certain, Likely, Open};
 
     fn guessed(pdu: &[u8]) -> (Direction, Certainty) {
-        let guess = direction(pdu, 3, false);
+        let guess = direction(pdu, 3, false, &STANDARD);
         (guess.direction, guess.certainty)
     }
 
@@ -146,9 +147,9 @@ mod tests {
         assert_eq!(guessed(&[3, 4, 0, 8, 0, 0, 0]), (Direction::Response, Likely));
         // A whole register is missing.
         assert_eq!(guessed(&[3, 4, 0, 8]), (Direction::Response, Likely));
-        assert_eq!(direction(&[3, 4, 0, 8, 0, 0], 3, true).direction, Direction::Response);
+        assert_eq!(direction(&[3, 4, 0, 8, 0, 0], 3, true, &STANDARD).direction, Direction::Response);
         // A request while it is typed, even where one waits already.
-        assert_eq!(direction(&[3, 0, 200], 3, true).direction, Direction::Request);
+        assert_eq!(direction(&[3, 0, 200], 3, true, &STANDARD).direction, Direction::Request);
         assert_eq!(guessed(&[3, 0]), (Direction::Request, Likely));
         assert_eq!(guessed(&[3, 0, 200]), (Direction::Request, Likely));
         // Five bytes are no whole registers, but there are five.

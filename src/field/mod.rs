@@ -3,15 +3,17 @@
 //!
 //! Nothing here knows a protocol, and nothing here imports anything else of this crate.
 
+mod bits;
 mod message;
 mod problem;
 mod spec;
 mod value;
 
+pub use bits::Bits;
 pub use message::{Argument, Message};
 pub use problem::{Problem, Severity};
-pub use spec::{Format, Name, Role, Spec};
-pub use value::{Check, Value, hex, hex_value};
+pub use spec::{Format, Name, Order, Role, Spec};
+pub use value::{Check, Value, escaped, float, hex, hex_value, number_text, unescaped};
 
 /// A run of bytes: of a telegram, or of the text that it was read from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -105,12 +107,21 @@ impl Field {
 
     /// The value as a person writes it; empty for groups.
     pub fn value_text(&self) -> String {
-        self.value.text(self.spec.format)
+        self.value.text(self.spec)
     }
 
     /// What the value means, where there is more to say than the value itself.
     pub fn meaning(&self) -> Option<Message> {
-        self.value.meaning(self.spec)
+        self.value.meaning(self.spec, self.number)
+    }
+
+    /// The parts of a number whose bits each say something, with their values.
+    pub fn parts(&self) -> impl Iterator<Item = (&'static Bits, u64)> {
+        let number = match self.value {
+            Value::Number { raw, .. } => Some(raw),
+            _ => None,
+        };
+        number.into_iter().flat_map(|raw| self.spec.bits.iter().map(move |part| (part, part.of(raw))))
     }
 
     /// Calls `visit` for this field and all below it, parents first.

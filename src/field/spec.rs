@@ -1,4 +1,4 @@
-use super::{Argument, Message, Numbering, hex_value};
+use super::{Argument, Bits, Message, Numbering, hex_value};
 use crate::message;
 
 /// What a field is, in every telegram: its names, its limits, what its values are called.
@@ -30,6 +30,14 @@ pub struct Spec {
     pub source: &'static str,
     /// The list's items are numbered as the device's manual does: `5F32h`.
     pub hex_numbers: bool,
+    /// What the bits of the number say, lowest first; empty where it is no set of bits.
+    pub bits: &'static [Bits],
+    /// What the number counts: `ms`.
+    pub unit: &'static str,
+    /// In which order the bytes of the number come.
+    pub order: Order,
+    /// How many numbers an item of a list stands for: 8 for a byte of coils.
+    pub step: u64,
 }
 
 /// A value with a name of its own.
@@ -62,11 +70,58 @@ pub enum Role {
     Unknown,
 }
 
-/// How a number is shown.
+/// In which order the bytes of a number come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// Most significant byte first (ABCD): what both protocols say.
+    Big,
+    /// Least significant byte first (DCBA).
+    Little,
+    /// The 16-bit words swapped, each with its high byte first (CDAB).
+    LowWordFirst,
+}
+
+impl Order {
+    /// The number that `bytes` hold.
+    pub fn number(self, bytes: &[u8]) -> u64 {
+        let fold = |number: u64, byte: &u8| number << 8 | u64::from(*byte);
+        match self {
+            Self::Big => bytes.iter().fold(0, fold),
+            Self::Little => bytes.iter().rev().fold(0, fold),
+            Self::LowWordFirst => bytes.chunks(2).rev().flatten().fold(0, fold),
+        }
+    }
+
+    /// The `width` bytes of `number`.
+    pub fn bytes(self, number: u64, width: usize) -> Vec<u8> {
+        let mut bytes = number.to_be_bytes()[8 - width..].to_vec();
+        if self != Self::Big {
+            bytes.reverse();
+        }
+        if self == Self::LowWordFirst {
+            bytes.chunks_mut(2).for_each(<[u8]>::reverse);
+        }
+        bytes
+    }
+}
+
+/// How a number, or a run of bytes, is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     Decimal,
     Hex,
+    /// Two's complement.
+    Signed,
+    /// An IEEE 754 number of 4 or 8 bytes.
+    Float,
+    /// So many decimal places: 15 with one is 1.5.
+    Places(u32),
+    /// A date as KEB writes it: decimal day, month, last digit of the year, `31011` for 31.01.2001.
+    DayMonthYear,
+    /// Eight switches of a row, lowest bit first: coils, discrete inputs.
+    Switches,
+    /// Bytes that are characters.
+    Text,
     /// A zero-based Modbus address; the digit is that of the 4xxxx notation (`4` for holding
     /// registers, `3` for input registers).
     Reference(char),
@@ -89,6 +144,10 @@ impl Spec {
             note: "",
             source: "",
             hex_numbers: false,
+            bits: &[],
+            unit: "",
+            order: Order::Big,
+            step: 1,
         }
     }
 
@@ -132,12 +191,47 @@ impl Spec {
         self
     }
 
+    /// A number whose bits each say something; it is shown in hex.
+    pub const fn bits(mut self, bits: &'static [Bits]) -> Self {
+        self.bits = bits;
+        self.format = Format::Hex;
+        self
+    }
+
+    pub const fn unit(mut self, unit: &'static str) -> Self {
+        self.unit = unit;
+        self
+    }
+
+    pub const fn order(mut self, order: Order) -> Self {
+        self.order = order;
+        self
+    }
+
+    pub const fn step(mut self, step: u64) -> Self {
+        self.step = step;
+        self
+    }
+
+    /// The same with other words for it.
+    pub const fn label(mut self, label: &'static str) -> Self {
+        self.label = label;
+        self.short = label;
+        self
+    }
+
     /// The label of a list's item: "Register 215", or "Register +2" where the first one's number
-    /// is not known.
+    /// is not known; "Coils 16 to 23" where an item stands for several.
     pub fn numbered(&self, number: Option<Numbering>) -> Message {
         let label = Argument::Term(self.label);
         match number {
             None => Message::term(self.label),
+            Some(Numbering::At(n)) if self.step > 1 => {
+                message!("{label} {from} to {to}", label = label, from = n, to = n + self.step - 1)
+            }
+            Some(Numbering::Offset(n)) if self.step > 1 => {
+                message!("{label} +{from} to +{to}", label = label, from = n, to = n + self.step - 1)
+            }
             Some(Numbering::At(n)) if self.hex_numbers => {
                 message!("{label} {n}", label = label, n = hex_value(n, 2))
             }

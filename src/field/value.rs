@@ -1,4 +1,4 @@
-use super::{Argument, Format, Message, Spec};
+use super::{Argument, Format, Message, Name, Numbering, Spec};
 use crate::message;
 
 /// What a field held.
@@ -12,6 +12,8 @@ pub enum Value {
     Selector { raw: u64, width: usize, chosen: &'static Spec },
     /// Bytes without a meaning that we know.
     Bytes,
+    /// Bytes that are characters, [`escaped`] where they cannot be shown.
+    Text(String),
     /// Check bytes.
     Check(Check),
     /// A field of `width` bytes of which `found` are there; the telegram ends too early.
@@ -67,25 +69,28 @@ impl Value {
         match *self {
             Self::Number { raw, .. } | Self::Selector { raw, .. } => Some(raw),
             Self::Check(check) => Some(check.found_value()),
-            Self::Group | Self::Bytes | Self::Missing { .. } => None,
+            Self::Group | Self::Bytes | Self::Text(_) | Self::Missing { .. } => None,
         }
     }
 
-    pub(super) fn text(&self, format: Format) -> String {
-        match *self {
-            Self::Number { raw, width } | Self::Selector { raw, width, .. } => match format {
-                Format::Hex | Format::HexAddress => hex_value(raw, width),
-                Format::Decimal | Format::Reference(_) | Format::Register => raw.to_string(),
-            },
+    pub(super) fn text(&self, spec: &Spec) -> String {
+        match self {
+            Self::Number { raw, width } | Self::Selector { raw, width, .. } => {
+                let text = number_text(*raw, *width, spec.format);
+                if spec.unit.is_empty() { text } else { format!("{text} {}", spec.unit) }
+            }
             Self::Check(check) => hex_value(check.found_value(), check.width),
+            Self::Text(text) => format!("“{text}”"),
             Self::Group | Self::Bytes | Self::Missing { .. } => String::new(),
         }
     }
 
-    pub(super) fn meaning(&self, spec: &'static Spec) -> Option<Message> {
+    pub(super) fn meaning(&self, spec: &'static Spec, number: Option<Numbering>) -> Option<Message> {
         match *self {
             Self::Number { raw, width } => match spec.name(raw) {
                 Some(name) => Some(Message::term(name.label)),
+                None if !spec.bits.is_empty() => Some(bits(raw, spec)),
+                None if spec.format == Format::Switches => Some(switches(raw, number)),
                 None => shown_otherwise(raw, width, spec.format),
             },
             Self::Selector { chosen, .. } => Some(Message::term(chosen.label)),
@@ -101,15 +106,99 @@ impl Value {
                 found = found,
                 width = Message::bytes(width)
             )),
-            Self::Group | Self::Bytes => None,
+            Self::Group | Self::Bytes | Self::Text(_) => None,
         }
+    }
+}
+
+/// A number of `width` bytes as a form shows it and takes it again.
+pub fn number_text(raw: u64, width: usize, format: Format) -> String {
+    match format {
+        Format::Hex | Format::HexAddress | Format::Switches => hex_value(raw, width),
+        Format::Signed => minus(signed(raw, width)),
+        Format::Float => float(raw, width),
+        Format::Places(places) => {
+            let one = 10_u64.pow(places);
+            format!("{}.{:0digits$}", raw / one, raw % one, digits = places as usize)
+        }
+        Format::Decimal | Format::Reference(_) | Format::Register | Format::DayMonthYear | Format::Text => {
+            raw.to_string()
+        }
+    }
+}
+
+/// The IEEE 754 number of `width` bytes, as short as it can be told apart from its neighbours.
+pub fn float(raw: u64, width: usize) -> String {
+    // The shortest digits of a number depend on how wide it is.
+    let (text, plain) = if width == 4 {
+        let value = f32::from_bits(raw as u32);
+        (format!("{value:?}"), value.is_finite())
+    } else {
+        let value = f64::from_bits(raw);
+        (format!("{value:?}"), value.is_finite())
+    };
+    if !plain {
+        let infinite = raw << (65 - 8 * width) == if width == 4 { 0xFF00_0000 << 32 } else { 0x7FF0 << 49 };
+        return match (infinite, raw >> (8 * width - 1)) {
+            (true, 0) => "infinity".to_owned(),
+            (true, _) => "\u{2212}infinity".to_owned(),
+            // Which of the many it is, so that writing it gives the same bytes.
+            (false, _) => format!("NaN({})", hex_value(raw, width)),
+        };
+    }
+    text.strip_suffix(".0").map(str::to_owned).unwrap_or(text).replace('-', "\u{2212}")
+}
+
+/// "handshake 1, 2 bytes, write": the flags that are set and the numbers of the other parts.
+fn bits(raw: u64, spec: &'static Spec) -> Message {
+    let mut said: Option<Message> = None;
+    for part in spec.bits {
+        let value = part.of(raw);
+        let next = match (part.name(value), part.count) {
+            (Some(Name { label: "", .. }), _) => continue,
+            (Some(name), _) => Message::term(name.label),
+            (None, 1) if value == 0 || part.reserved => continue,
+            (None, 1) => Message::term(part.label),
+            (None, _) if part.reserved => continue,
+            (None, _) => message!("{part} {n}", part = Argument::Term(part.label), n = value),
+        };
+        said = Some(match said {
+            Some(said) => message!("{said}, {next}", said = said, next = next),
+            None => next,
+        });
+    }
+    said.unwrap_or(message!("nothing set"))
+}
+
+/// "16, 18 on": which of eight switches are, the first one's number where it is known.
+fn switches(raw: u64, number: Option<Numbering>) -> Message {
+    let (sign, first) = match number {
+        Some(Numbering::At(first)) => ("", first),
+        Some(Numbering::Offset(first)) => ("+", first),
+        None => ("+", 0),
+    };
+    let on: Vec<String> =
+        (0..8).filter(|bit| raw >> bit & 1 == 1).map(|bit| format!("{sign}{}", first + bit)).collect();
+    match on.len() {
+        0 => message!("all off"),
+        8 => message!("all on"),
+        _ => message!("{which} on", which = on.join(", ")),
     }
 }
 
 /// The number's other notations, where a person may need them.
 fn shown_otherwise(raw: u64, width: usize, format: Format) -> Option<Message> {
     match format {
-        Format::Decimal | Format::Hex => None,
+        Format::Decimal | Format::Hex | Format::Switches | Format::Text => None,
+        Format::Signed | Format::Float | Format::Places(_) => {
+            Some(message!("{hex}", hex = hex_value(raw, width)))
+        }
+        Format::DayMonthYear => Some(message!(
+            "{day}.{month}., year ending in {digit}",
+            day = raw / 1000,
+            month = format!("{:02}", raw / 10 % 100),
+            digit = raw % 10
+        )),
         Format::Reference(digit) => Some(message!(
             "{hex}, register {one_based}, reference {reference}",
             hex = hex_value(raw, width),
@@ -121,7 +210,7 @@ fn shown_otherwise(raw: u64, width: usize, format: Format) -> Option<Message> {
             negative @ ..0 => message!(
                 "{hex}, signed {signed}",
                 hex = hex_value(raw, width),
-                signed = Argument::Text(format!("\u{2212}{}", negative.unsigned_abs()))
+                signed = Argument::Text(minus(negative))
             ),
             _ => message!("{hex}", hex = hex_value(raw, width)),
         }),
@@ -131,6 +220,11 @@ fn shown_otherwise(raw: u64, width: usize, format: Format) -> Option<Message> {
 /// The 4xxxx notation of a zero-based address: five digits as long as they suffice, else six.
 fn reference(digit: char, address: u64) -> String {
     if address < 9999 { format!("{digit}{:04}", address + 1) } else { format!("{digit}{:05}", address + 1) }
+}
+
+fn minus(number: i64) -> String {
+    let sign = if number < 0 { "\u{2212}" } else { "" };
+    format!("{sign}{}", number.unsigned_abs())
 }
 
 fn signed(raw: u64, width: usize) -> i64 {
@@ -157,14 +251,78 @@ pub fn hex_value(value: u64, width: usize) -> String {
     format!("{value:0digits$X}h", digits = 2 * width)
 }
 
+/// Characters as text; what is not a printable one, and the backslash, as `\\x5C`.
+pub fn escaped(bytes: &[u8]) -> String {
+    let mut text = String::new();
+    for byte in bytes {
+        match byte {
+            b'\\' | ..b' ' | 0x7F.. => text.push_str(&format!("\\x{byte:02X}")),
+            _ => text.push(char::from(*byte)),
+        }
+    }
+    text
+}
+
+/// The bytes of such a text; `Err` is what cannot be one byte.
+pub fn unescaped(text: &str) -> Result<Vec<u8>, String> {
+    let mut bytes = Vec::new();
+    let mut rest = text.chars();
+    while let Some(c) = rest.next() {
+        let code = if c == '\\' {
+            let written: String = rest.by_ref().take(3).collect();
+            let digits = written.strip_prefix('x').filter(|digits| digits.len() == 2);
+            digits
+                .and_then(|digits| u8::from_str_radix(digits, 16).ok())
+                .ok_or_else(|| format!("\\{written}"))?
+        } else {
+            u8::try_from(c).map_err(|_| c.to_string())?
+        };
+        bytes.push(code);
+    }
+    Ok(bytes)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
+    fn floats_are_as_short_as_they_can_be() {
+        for (raw, width, text) in [
+            (0x42F6_E979, 4, "123.456"),
+            (0x405E_DD2F_1A9F_BE77, 8, "123.456"),
+            (0x42A4_0000, 4, "82"),
+            (0xC974_23F0, 4, "\u{2212}999999"),
+            (0x0000_0001, 4, "1e\u{2212}45"),
+            (0x7F80_0000, 4, "infinity"),
+            (0xFF80_0000, 4, "\u{2212}infinity"),
+            (0x7FF0_0000_0000_0000, 8, "infinity"),
+            (0x7FC0_0001, 4, "NaN(7FC00001h)"),
+        ] {
+            assert_eq!(float(raw, width), text, "{raw:X}");
+        }
+    }
+
+    #[test]
+    fn text_comes_back() {
+        let all: Vec<u8> = (0..=255).collect();
+        assert_eq!(unescaped(&escaped(&all)), Ok(all));
+        assert_eq!(escaped(b"a\\\0"), "a\\x5C\\x00");
+        assert!(unescaped("\\x1").is_err());
+        assert!(unescaped("€").is_err());
+    }
+
+    #[test]
+    fn switches_are_named_by_number() {
+        assert_eq!(switches(5, Some(Numbering::At(16))).to_string(), "16, 18 on");
+        assert_eq!(switches(128, Some(Numbering::Offset(8))).to_string(), "+15 on");
+        assert_eq!(switches(0, None).to_string(), "all off");
+    }
+
+    #[test]
     fn addresses_are_shown_in_all_notations() {
         let spec = &const { Spec::new("start", "Start").format(Format::Reference('4')) };
-        let meaning = |raw| Value::Number { raw, width: 2 }.meaning(spec).unwrap().to_string();
+        let meaning = |raw| Value::Number { raw, width: 2 }.meaning(spec, None).unwrap().to_string();
         assert_eq!(meaning(200), "00C8h, register 201, reference 40201");
         assert_eq!(meaning(9998), "270Eh, register 9999, reference 49999");
         assert_eq!(meaning(9999), "270Fh, register 10000, reference 410000");
@@ -182,7 +340,7 @@ mod tests {
     #[test]
     fn registers_are_shown_signed_where_that_differs() {
         let spec = &const { Spec::new("value", "Register").format(Format::Register) };
-        let meaning = |raw| Value::Number { raw, width: 2 }.meaning(spec).unwrap().to_string();
+        let meaning = |raw| Value::Number { raw, width: 2 }.meaning(spec, None).unwrap().to_string();
         assert_eq!(meaning(128), "0080h");
         assert_eq!(meaning(0xFFFF), "FFFFh, signed \u{2212}1");
         assert_eq!(meaning(0x8000), "8000h, signed \u{2212}32768");

@@ -6,7 +6,7 @@
 
 use crate::field::{Direction, Message, Name, Role, Severity, Spec};
 use crate::message;
-use crate::modbus::{LONGEST_PDU, Pdu, Server};
+use crate::modbus::{Dialect, LONGEST_PDU, Pdu, Server};
 use crate::walk::{CRC_16_MODBUS, Telegram, Walk, Walker};
 
 /// The unit that everybody on the line listens to.
@@ -29,9 +29,10 @@ pub struct Rtu {
 
 impl Rtu {
     /// An empty frame to read `bytes` into.
-    pub fn expect(bytes: &[u8], direction: Direction) -> Self {
+    pub fn expect(bytes: &[u8], direction: Direction, dialect: &'static Dialect) -> Self {
         let function = bytes.get(1).copied().unwrap_or_default();
-        Self { unit: bytes.first().copied().unwrap_or_default(), pdu: Pdu::expect(function, direction) }
+        let unit = bytes.first().copied().unwrap_or_default();
+        Self { unit, pdu: Pdu::expect(function, direction, dialect) }
     }
 
     /// The bytes of the PDU in a frame of `bytes`; empty where the frame is too short for one.

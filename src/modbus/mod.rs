@@ -39,6 +39,17 @@ pub static KINDS: &[&Kind] = &[
 /// The kinds that stand for many function codes: whatever is not in [`KINDS`].
 pub static OTHER_KINDS: &[&Kind] = &[&exception::RESPONSE, &unknown::REQUEST, &unknown::RESPONSE];
 
+/// Telegrams as the standard and the manuals lay them out.
+pub static STANDARD: Dialect = Dialect {
+    key: "standard",
+    label: "as the manuals say",
+    note: "Every telegram as its manual or the standard describes it.",
+    kinds: &[],
+};
+
+/// The dialects that a device may speak, the standard first.
+pub static DIALECTS: &[&Dialect] = &[&STANDARD];
+
 /// The bit that a server sets in the function code to refuse a request.
 pub const EXCEPTION: u8 = 0x80;
 
@@ -59,9 +70,20 @@ pub struct Kind {
 
 impl Kind {
     /// A PDU of this kind with nothing filled in.
-    pub fn pdu(&'static self) -> Pdu {
-        Pdu { function: self.function, direction: self.direction, kind: self, body: (self.new)() }
+    pub fn pdu(&'static self, dialect: &'static Dialect) -> Pdu {
+        Pdu { function: self.function, direction: self.direction, dialect, kind: self, body: (self.new)() }
     }
+}
+
+/// Telegrams that some devices lay out in a way of their own.
+#[derive(Debug)]
+pub struct Dialect {
+    /// Stable word of settings and exports.
+    pub key: &'static str,
+    pub label: &'static str,
+    pub note: &'static str,
+    /// What takes the place of the kinds of the same function code in [`KINDS`].
+    pub kinds: &'static [&'static Kind],
 }
 
 /// How long a PDU is, told from its first bytes; the function code counts.
@@ -154,14 +176,16 @@ pub struct Pdu {
     /// As on the wire, with the exception bit.
     pub function: u8,
     pub direction: Direction,
+    pub dialect: &'static Dialect,
     pub kind: &'static Kind,
     pub body: Box<dyn Body>,
 }
 
 impl Pdu {
     /// The kind that a PDU with `function` on the wire has.
-    pub fn kind(function: u8, direction: Direction) -> &'static Kind {
-        let listed = KINDS.iter().find(|kind| kind.function == function && kind.direction == direction);
+    pub fn kind(function: u8, direction: Direction, dialect: &'static Dialect) -> &'static Kind {
+        let mut known = dialect.kinds.iter().chain(KINDS);
+        let listed = known.find(|kind| kind.function == function && kind.direction == direction);
         match (listed, direction) {
             (Some(kind), _) => kind,
             (None, Direction::Request) => &unknown::REQUEST,
@@ -171,20 +195,20 @@ impl Pdu {
     }
 
     /// An empty PDU to read a telegram of `function` into.
-    pub fn expect(function: u8, direction: Direction) -> Self {
-        Self { function, ..Self::kind(function, direction).pdu() }
+    pub fn expect(function: u8, direction: Direction, dialect: &'static Dialect) -> Self {
+        Self { function, ..Self::kind(function, direction, dialect).pdu(dialect) }
     }
 }
 
 impl Telegram for Pdu {
     fn walk(&mut self, w: &mut dyn Walker) -> Walk {
-        let direction = self.direction;
+        let (direction, dialect) = (self.direction, self.dialect);
         let function = w.select(&FUNCTION, 1, self.function.into(), &|function| {
             // One byte wide, so it fits.
-            &Self::kind(function as u8, direction).spec
+            &Self::kind(function as u8, direction, dialect).spec
         })? as u8;
         if function != self.function {
-            *self = Self::expect(function, direction);
+            *self = Self::expect(function, direction, dialect);
         }
         self.body.walk(w)
     }

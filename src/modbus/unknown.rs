@@ -28,7 +28,7 @@ pub struct Unknown {
 
 impl Telegram for Unknown {
     fn walk(&mut self, w: &mut dyn Walker) -> Walk {
-        w.bytes(&DATA, &mut self.data)
+        w.bytes(&DATA, &mut self.data, None)
     }
 }
 

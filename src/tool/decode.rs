@@ -2,7 +2,7 @@ use crate::dialogue::{self, Certainty, Guess, Pairing};
 use crate::field::{self, Check, Direction, Field, Message, Problem, Value, hex_value};
 use crate::frame::modbus_rtu::{AROUND, BROADCAST, Rtu, SHORTEST};
 use crate::message;
-use crate::modbus::{Access, EXCEPTION};
+use crate::modbus::{Access, EXCEPTION, STANDARD};
 use crate::text::{self, Line, Style};
 use crate::walk::{self, guide};
 
@@ -228,7 +228,7 @@ impl Report {
     fn guess(&self, bytes: &[u8], pairing: &Pairing) -> Guess {
         let asked = pairing.waiting().map(|index| (index, self.telegrams[index].line.bytes.as_slice()));
         let awaited = asked.is_some_and(|(_, asked)| asked.get(..2) == bytes.get(..2));
-        let guess = dialogue::direction(Rtu::pdu_bytes(bytes), AROUND, awaited);
+        let guess = dialogue::direction(Rtu::pdu_bytes(bytes), AROUND, awaited, &STANDARD);
         match asked {
             Some((index, asked)) if guess.certainty == Certainty::Open && asked == bytes => Guess {
                 direction: Direction::Response,
@@ -246,7 +246,7 @@ impl Report {
 impl Telegram {
     /// A frame of this telegram's kind with nothing read into it yet.
     fn expected(&self) -> Rtu {
-        Rtu::expect(&self.line.bytes, self.guess.direction)
+        Rtu::expect(&self.line.bytes, self.guess.direction, &STANDARD)
     }
 
     fn read(&self, asked: Option<&Access<'_>>) -> (Rtu, walk::Reading) {

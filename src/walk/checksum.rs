@@ -34,6 +34,22 @@ fn crc_16_modbus(bytes: &[u8]) -> u64 {
 /// One table of 256 entries: quick enough, and half a kilobyte in the page.
 static CRC: Crc<u16, Table<1>> = Crc::<u16, Table<1>>::new(&MODBUS);
 
+/// The check of Modbus ASCII: what is missing from the sum of the bytes to 0, in one byte.
+///
+/// Source: Modbus over serial line V1.02, section 2.5.2.2 and appendix A.
+pub static LRC: Algorithm =
+    Algorithm { kind: "lrc", width: 1, low_first: false, compute: |bytes| sum(bytes).wrapping_neg().into() };
+
+/// The frame check of PROFIBUS: the sum of the bytes, in one byte.
+///
+/// Source: EN 50170, volume 2, part 4 (FDL), frame formats.
+pub static FCS: Algorithm =
+    Algorithm { kind: "fcs", width: 1, low_first: false, compute: |bytes| sum(bytes).into() };
+
+fn sum(bytes: &[u8]) -> u8 {
+    bytes.iter().fold(0, |sum, byte| sum.wrapping_add(*byte))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -42,5 +58,12 @@ mod tests {
     fn the_check_value_of_the_catalogue() {
         assert_eq!((CRC_16_MODBUS.compute)(b"123456789"), 0x4B37);
         assert_eq!(CRC_16_MODBUS.wire(b"123456789"), 0x374B);
+    }
+
+    #[test]
+    fn sums() {
+        assert_eq!(LRC.wire(&[0x02, 0x03, 0x00, 0xC8, 0x00, 0x05]), 0x2E);
+        assert_eq!(FCS.wire(&[0x02, 0x01, 0x49]), 0x4C);
+        assert_eq!(LRC.wire(&[]), 0);
     }
 }

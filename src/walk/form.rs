@@ -1,7 +1,9 @@
 //! The form of a telegram: entries that a person can edit, and from them the telegram again.
 
 use super::{Algorithm, Deviation, Deviations, Items, Part, Path, Telegram, WINDOW, Walk, Walker};
-use crate::field::{Format, Message, Numbering, Spec, hex, hex_value};
+use crate::field::{
+    Argument, Format, Message, Numbering, Spec, escaped, hex, hex_value, number_text, unescaped,
+};
 use crate::message;
 
 /// What a person can edit of a telegram.
@@ -27,7 +29,7 @@ pub enum Content {
         width: usize,
         text: String,
     },
-    /// The choice that made the form what it is: shown, not edited.
+    /// The choice that made the form what it is. Another one of `spec.names` makes another form.
     Choice {
         raw: u64,
         chosen: &'static Spec,
@@ -40,6 +42,10 @@ pub enum Content {
     },
     /// Bytes in hex.
     Bytes {
+        text: String,
+    },
+    /// Bytes as characters, [`escaped`](crate::field::escaped) where they cannot be shown.
+    Text {
         text: String,
     },
     /// A list that can grow and shrink.
@@ -118,6 +124,68 @@ pub fn parse_number(text: &str, width: usize) -> Result<u64, Message> {
     number.filter(|number| *number <= widest).ok_or_else(expected)
 }
 
+/// Reads a value as its field shows it: a float, a number with decimal places, the name of a value,
+/// or a number like any other.
+pub fn parse_value(text: &str, width: usize, spec: &Spec) -> Result<u64, Message> {
+    let written = text.trim();
+    if let Some(name) = spec.names.iter().find(|name| name.label.eq_ignore_ascii_case(written)) {
+        return Ok(name.value);
+    }
+    // With the unit behind it, as the field shows it.
+    let written = written.strip_suffix(spec.unit).unwrap_or(written).trim_end();
+    match spec.format {
+        Format::Float => parse_float(written, width),
+        Format::Places(places) => parse_places(written, width, places),
+        _ => parse_number(written, width),
+    }
+}
+
+fn parse_float(written: &str, width: usize) -> Result<u64, Message> {
+    let plain = written.replace('\u{2212}', "-");
+    if let Some(raw) = plain.strip_prefix("NaN(").and_then(|rest| rest.strip_suffix(')')) {
+        return parse_number(raw, width);
+    }
+    let parsed = match width {
+        4 => plain.parse::<f32>().ok().map(|value| (u64::from(value.to_bits()), value.is_finite())),
+        _ => plain.parse::<f64>().ok().map(|value| (value.to_bits(), value.is_finite())),
+    };
+    // 1e99 is a number to us, and infinity to a float of 4 bytes: nobody means that.
+    let meant = parsed.filter(|(_, finite)| *finite || plain.trim_start_matches('-') == "infinity");
+    meant.map(|(raw, _)| raw).ok_or_else(|| {
+        message!(
+            "“{text}” is not a number that {bytes} can hold: write it like 123.456, −0.5 or 1e6",
+            text = written.to_owned(),
+            bytes = Message::bytes(width)
+        )
+    })
+}
+
+fn parse_places(written: &str, width: usize, places: u32) -> Result<u64, Message> {
+    let widest = u64::MAX >> (64 - 8 * width);
+    let (whole, behind) = written.split_once('.').unwrap_or((written, ""));
+    let digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+    let padded = format!("{whole}{behind:0<digits$}", digits = places as usize);
+    let fits = !whole.is_empty() && digits(whole) && digits(behind) && behind.len() <= places as usize;
+    padded.parse().ok().filter(|raw| fits && *raw <= widest).ok_or_else(|| {
+        message!(
+            "“{text}” is not a number from 0 to {widest} with at most {places} decimal places",
+            text = written.to_owned(),
+            widest = number_text(widest, width, Format::Places(places)),
+            places = u64::from(places)
+        )
+    })
+}
+
+fn parse_text(text: &str) -> Result<Vec<u8>, Message> {
+    unescaped(text).map_err(|what| {
+        message!(
+            "“{what}” is not one byte: write characters of one byte, or a byte in hex as {example}",
+            what = what,
+            example = Argument::Text("\\x5C".to_owned())
+        )
+    })
+}
+
 /// Reads bytes as a person writes them in a form: `01 03 00C8`.
 fn parse_bytes(text: &str) -> Result<Vec<u8>, Message> {
     let digits: Vec<u8> = text.bytes().filter(|byte| !byte.is_ascii_whitespace()).collect();
@@ -126,14 +194,6 @@ fn parse_bytes(text: &str) -> Result<Vec<u8>, Message> {
     all_hex.then(|| digits.chunks(2).map_while(byte).collect()).ok_or_else(|| {
         message!("“{text}” is not hex: write two digits for each byte", text = text.to_owned())
     })
-}
-
-/// A number as the form first shows it.
-fn number_text(spec: &Spec, raw: u64, width: usize) -> String {
-    match spec.format {
-        Format::Hex | Format::HexAddress => hex_value(raw, width),
-        Format::Decimal | Format::Reference(_) | Format::Register => raw.to_string(),
-    }
 }
 
 /// Value to entries.
@@ -179,7 +239,7 @@ impl Show<'_> {
 
 impl Walker for Show<'_> {
     fn number(&mut self, spec: &'static Spec, width: usize, raw: &mut u64) -> Walk {
-        self.entry(spec, Content::Number { width, text: number_text(spec, *raw, width) });
+        self.entry(spec, Content::Number { width, text: number_text(*raw, width, spec.format) });
         Ok(())
     }
 
@@ -204,8 +264,12 @@ impl Walker for Show<'_> {
         Ok(())
     }
 
-    fn bytes(&mut self, spec: &'static Spec, bytes: &mut Vec<u8>) -> Walk {
-        self.entry(spec, Content::Bytes { text: hex(bytes) });
+    fn bytes(&mut self, spec: &'static Spec, bytes: &mut Vec<u8>, _: Option<usize>) -> Walk {
+        let content = match spec.format {
+            Format::Text => Content::Text { text: escaped(bytes) },
+            _ => Content::Bytes { text: hex(bytes) },
+        };
+        self.entry(spec, content);
         Ok(())
     }
 
@@ -305,7 +369,7 @@ impl<'a> Fill<'a> {
 impl Walker for Fill<'_> {
     fn number(&mut self, spec: &'static Spec, _: usize, raw: &mut u64) -> Walk {
         if let Some(Content::Number { width, text }) = self.content(spec)
-            && let Some(number) = self.parsed(self.path.join(spec.key), parse_number(text, *width))
+            && let Some(number) = self.parsed(self.path.join(spec.key), parse_value(text, *width, spec))
         {
             *raw = number;
         }
@@ -335,10 +399,13 @@ impl Walker for Fill<'_> {
         Ok(())
     }
 
-    fn bytes(&mut self, spec: &'static Spec, bytes: &mut Vec<u8>) -> Walk {
-        if let Some(Content::Bytes { text }) = self.content(spec)
-            && let Some(parsed) = self.parsed(self.path.join(spec.key), parse_bytes(text))
-        {
+    fn bytes(&mut self, spec: &'static Spec, bytes: &mut Vec<u8>, _: Option<usize>) -> Walk {
+        let parsed = match self.content(spec) {
+            Some(Content::Bytes { text }) => parse_bytes(text),
+            Some(Content::Text { text }) => parse_text(text),
+            _ => return Ok(()),
+        };
+        if let Some(parsed) = self.parsed(self.path.join(spec.key), parsed) {
             *bytes = parsed;
         }
         Ok(())
@@ -398,6 +465,27 @@ mod tests {
         }
         for text in ["", "65536", "-32769", "C8", "0x", "h", "1.5", "+1", "0x+1", "--1"] {
             assert!(parse_number(text, 2).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn values_are_read_as_they_are_shown() {
+        static FLOAT: Spec = Spec::new("f", "F").format(Format::Float);
+        static TENTHS: Spec = Spec::new("t", "T").format(Format::Places(1)).unit("V");
+        let shown = |spec: &Spec, raw, width| number_text(raw, width, spec.format);
+        for raw in [0x42F6_E979, 0x8000_0000, 1, 0x7F80_0000, 0xFF80_0000, 0x7FC0_0001, 0xFFFF_FFFF] {
+            assert_eq!(parse_value(&shown(&FLOAT, raw, 4), 4, &FLOAT), Ok(raw));
+        }
+        for raw in [0x405E_DD2F_1A9F_BE77, 1, 0x7FF0_0000_0000_0001, 0xFFF0_0000_0000_0000] {
+            assert_eq!(parse_value(&shown(&FLOAT, raw, 8), 8, &FLOAT), Ok(raw));
+        }
+        assert!(parse_value("1e99", 4, &FLOAT).is_err());
+        assert!(parse_value("nan", 4, &FLOAT).is_err());
+        for (text, raw) in [("1.5", 15), ("1.5 V", 15), ("20", 200), ("6553.5", 65535)] {
+            assert_eq!(parse_value(text, 2, &TENTHS), Ok(raw), "{text}");
+        }
+        for text in ["", ".5", "1.55", "6553.6", "-1", "x"] {
+            assert!(parse_value(text, 2, &TENTHS).is_err(), "{text}");
         }
     }
 

@@ -90,7 +90,7 @@ impl Walker for Guide {
         Ok(())
     }
 
-    fn bytes(&mut self, spec: &'static Spec, _: &mut Vec<u8>) -> Walk {
+    fn bytes(&mut self, spec: &'static Spec, _: &mut Vec<u8>, _: Option<usize>) -> Walk {
         self.row(spec, Size::Rest, None);
         self.offset = None;
         Ok(())

@@ -21,7 +21,7 @@ mod read;
 mod sample;
 mod write;
 
-pub use checksum::{Algorithm, CRC_16_MODBUS};
+pub use checksum::{Algorithm, CRC_16_MODBUS, FCS, LRC};
 pub use deviation::{Deviation, Deviations};
 pub use read::{Reading, UNEXPECTED, read};
 pub use sample::sample;
@@ -47,7 +47,7 @@ pub type Walk<T = ()> = Result<T, Stop>;
 /// A part of a walk, as a closure.
 pub type Part<'a> = &'a mut dyn FnMut(&mut dyn Walker) -> Walk;
 
-/// What a telegram shows its fields to. Numbers are big-endian.
+/// What a telegram shows its fields to. Numbers are big-endian where their [`Spec`] says nothing else.
 ///
 /// Telegrams use the typed methods ([`u8`](trait.Walker.html#method.u8) and so on, [`list`]) where
 /// there are some.
@@ -75,8 +75,8 @@ pub trait Walker {
     /// A number that follows from other fields; `None` where they do not tell.
     fn derived(&mut self, spec: &'static Spec, width: usize, expected: Option<u64>) -> Walk;
 
-    /// Bytes without a meaning that we know, up to the end of the window.
-    fn bytes(&mut self, spec: &'static Spec, bytes: &mut Vec<u8>) -> Walk;
+    /// `count` bytes that are no numbers; `None` for all up to the end of the window.
+    fn bytes(&mut self, spec: &'static Spec, bytes: &mut Vec<u8>, count: Option<usize>) -> Walk;
 
     /// `count` items of the same kind; `first` is the number of the first one, if that is known.
     fn items(&mut self, spec: &'static Spec, items: &mut dyn Items, count: usize, first: Option<u64>)
@@ -91,6 +91,13 @@ pub trait Walker {
 
     /// Check bytes over everything from `from` (a [`mark`](Self::mark)) to here.
     fn checksum(&mut self, spec: &'static Spec, algorithm: &'static Algorithm, from: usize) -> Walk;
+
+    /// How many bytes `part` takes, which the telegram comes to later: for a length in front of
+    /// what it counts. The reader takes for it what the window has left, less the `around` bytes
+    /// that are not counted. `None` from walkers without bytes.
+    fn ahead(&mut self, _around: usize, _part: Part<'_>) -> Option<u64> {
+        None
+    }
 
     /// The present place, for [`checksum`](Self::checksum). Walkers without bytes have only one.
     fn mark(&self) -> usize {
@@ -119,6 +126,10 @@ impl<'a> dyn Walker + 'a {
 
     pub fn u16(&mut self, spec: &'static Spec, value: &mut u16) -> Walk {
         self.sized(spec, 2, value)
+    }
+
+    pub fn u64(&mut self, spec: &'static Spec, value: &mut u64) -> Walk {
+        self.sized(spec, 8, value)
     }
 
     pub fn u32(&mut self, spec: &'static Spec, value: &mut u32) -> Walk {

@@ -1,7 +1,9 @@
 use super::{
     Algorithm, Deviation, Deviations, Items, Part, Path, Stop, Telegram, WINDOW, Walk, Walker, write,
 };
-use crate::field::{Argument, Check, Field, Message, Numbering, Problem, Role, Severity, Span, Spec, Value};
+use crate::field::{
+    Argument, Check, Field, Format, Message, Numbering, Problem, Role, Severity, Span, Spec, Value, escaped,
+};
 use crate::message;
 
 /// Reads `bytes` into `telegram` and returns the tree of its fields.
@@ -67,15 +69,22 @@ impl Reader<'_> {
         let found = width.min(self.end - from);
         self.position = from + found;
         let span = Span::new(from, self.position);
-        // Absent low bytes count as zero, so that writing and cutting gives the same bytes.
-        *raw = span.of(self.bytes).iter().fold(0, |raw, byte| raw << 8 | u64::from(*byte))
-            << (8 * (width - found));
+        // Absent bytes count as zero, so that writing and cutting gives the same bytes.
+        let mut there = span.of(self.bytes).to_vec();
+        there.resize(width, 0);
+        *raw = spec.order.number(&there);
         let value =
             if found == width { Value::Number { raw: *raw, width } } else { Value::Missing { width, found } };
         self.fields.push(Field::new(spec, span, value));
         if found == width {
             return Ok(());
         }
+        self.cut_off(spec, width, found);
+        Err(Stop)
+    }
+
+    /// Says of the field just read that only `found` of its `width` bytes are there.
+    fn cut_off(&mut self, spec: &'static Spec, width: usize, found: usize) {
         let label = Argument::Term(spec.label);
         let message = match found {
             0 => message!(
@@ -90,8 +99,7 @@ impl Reader<'_> {
                 bytes = Message::bytes(width)
             ),
         };
-        self.problem(Problem::error("truncated", span, message));
-        Err(Stop)
+        self.problem(Problem::error("truncated", self.last_span(), message));
     }
 
     fn problem(&mut self, problem: Problem) {
@@ -105,7 +113,17 @@ impl Reader<'_> {
         self.fields.last().map_or(Span::new(self.position, self.position), |field| field.span)
     }
 
+    /// Limits, and bits that must be 0.
     fn check_limits(&mut self, spec: &'static Spec, raw: u64) {
+        for part in spec.bits.iter().filter(|part| part.reserved && part.of(raw) != 0) {
+            let message = message!(
+                "{label}: bits {from} to {to} are reserved and should be 0",
+                label = Argument::Term(spec.label),
+                from = part.from,
+                to = part.from + part.count - 1
+            );
+            self.problem(Problem::warning("reserved-bits", self.last_span(), message));
+        }
         if let (false, Some((from, to))) = (spec.allows(raw), spec.limits) {
             let message = message!(
                 "{label} is {raw}; {from} to {to} are allowed",
@@ -203,7 +221,7 @@ impl Walker for Reader<'_> {
             && raw != expected
         {
             let message = message!(
-                "{label} is {raw}; by the fields before it, it must be {expected}",
+                "{label} is {raw}; by the rest of the telegram, it must be {expected}",
                 label = Argument::Term(spec.label),
                 raw = raw,
                 expected = expected
@@ -213,12 +231,22 @@ impl Walker for Reader<'_> {
         Ok(())
     }
 
-    fn bytes(&mut self, spec: &'static Spec, bytes: &mut Vec<u8>) -> Walk {
-        let span = Span::new(self.position, self.end);
+    fn bytes(&mut self, spec: &'static Spec, bytes: &mut Vec<u8>, count: Option<usize>) -> Walk {
+        let left = self.end - self.position;
+        let wanted = count.unwrap_or(left);
+        let span = Span::new(self.position, self.position + wanted.min(left));
         *bytes = span.of(self.bytes).to_vec();
-        self.position = self.end;
-        if !span.is_empty() {
-            self.fields.push(Field::new(spec, span, Value::Bytes));
+        self.position = span.to;
+        if wanted > 0 {
+            let value = match spec.format {
+                Format::Text => Value::Text(escaped(bytes)),
+                _ => Value::Bytes,
+            };
+            self.fields.push(Field::new(spec, span, value));
+        }
+        if wanted > left {
+            self.cut_off(spec, wanted, left);
+            return Err(Stop);
         }
         Ok(())
     }
@@ -246,7 +274,7 @@ impl Walker for Reader<'_> {
         });
         let Some(list) = self.fields.last_mut() else { return walk };
         for (offset, item) in (0..).zip(&mut list.children) {
-            item.number = Some(Numbering::new(first, offset));
+            item.number = Some(Numbering::new(first, offset * item.spec.step));
         }
         if walk.is_err() {
             let message = message!(
@@ -301,6 +329,10 @@ impl Walker for Reader<'_> {
             field.value = Value::Check(check);
         }
         Ok(())
+    }
+
+    fn ahead(&mut self, around: usize, _: Part<'_>) -> Option<u64> {
+        (self.end - self.position).checked_sub(around).map(|left| left as u64)
     }
 
     fn mark(&self) -> usize {

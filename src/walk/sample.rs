@@ -26,7 +26,8 @@ impl Sampler<'_> {
 impl Walker for Sampler<'_> {
     fn number(&mut self, spec: &'static Spec, width: usize, raw: &mut u64) -> Walk {
         let widest = u64::MAX >> (64 - 8 * width);
-        *raw = self.between(spec.limits.unwrap_or((0, widest)));
+        let drawn = self.between(spec.limits.unwrap_or((0, widest)));
+        *raw = spec.bits.iter().filter(|part| part.reserved).fold(drawn, |raw, part| part.put(raw, 0));
         Ok(())
     }
 
@@ -50,8 +51,8 @@ impl Walker for Sampler<'_> {
         Ok(())
     }
 
-    fn bytes(&mut self, _: &'static Spec, bytes: &mut Vec<u8>) -> Walk {
-        let length = self.between((0, LONGEST)) as usize;
+    fn bytes(&mut self, _: &'static Spec, bytes: &mut Vec<u8>, count: Option<usize>) -> Walk {
+        let length = count.unwrap_or_else(|| self.between((0, LONGEST)) as usize);
         bytes.resize_with(length, || (self.random)(255) as u8);
         Ok(())
     }

@@ -29,13 +29,13 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    fn put(&mut self, width: usize, raw: u64) {
-        self.bytes.extend_from_slice(&raw.to_be_bytes()[8 - width..]);
+    fn put(&mut self, spec: &'static Spec, width: usize, raw: u64) {
+        self.bytes.extend(spec.order.bytes(raw, width));
     }
 
     fn put_computed(&mut self, spec: &'static Spec, width: usize, raw: u64) {
         let path = self.path.join(spec.key);
-        self.put(width, self.deviations.value(&path).unwrap_or(raw));
+        self.put(spec, width, self.deviations.value(&path).unwrap_or(raw));
         self.computed.set(path, Deviation::Value(raw));
     }
 
@@ -50,19 +50,19 @@ impl Writer<'_> {
 }
 
 impl Walker for Writer<'_> {
-    fn number(&mut self, _: &'static Spec, width: usize, raw: &mut u64) -> Walk {
-        self.put(width, *raw);
+    fn number(&mut self, spec: &'static Spec, width: usize, raw: &mut u64) -> Walk {
+        self.put(spec, width, *raw);
         Ok(())
     }
 
     fn select(
         &mut self,
-        _: &'static Spec,
+        spec: &'static Spec,
         width: usize,
         current: u64,
         _: &dyn Fn(u64) -> &'static Spec,
     ) -> Walk<u64> {
-        self.put(width, current);
+        self.put(spec, width, current);
         Ok(current)
     }
 
@@ -76,7 +76,7 @@ impl Walker for Writer<'_> {
         Ok(())
     }
 
-    fn bytes(&mut self, _: &'static Spec, bytes: &mut Vec<u8>) -> Walk {
+    fn bytes(&mut self, _: &'static Spec, bytes: &mut Vec<u8>, _: Option<usize>) -> Walk {
         self.bytes.extend_from_slice(bytes);
         Ok(())
     }
@@ -111,6 +111,16 @@ impl Walker for Writer<'_> {
         let check = algorithm.wire(&self.bytes[from..]);
         self.put_computed(spec, algorithm.width, check);
         Ok(())
+    }
+
+    fn ahead(&mut self, _: usize, part: Part<'_>) -> Option<u64> {
+        let from = self.bytes.len();
+        let computed = self.computed.clone();
+        let walk = part(self);
+        let length = self.bytes.len() - from;
+        self.bytes.truncate(from);
+        self.computed = computed;
+        walk.ok().map(|()| length as u64)
     }
 
     fn mark(&self) -> usize {
