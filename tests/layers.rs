@@ -8,10 +8,12 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("field", &[]),
     ("walk", &["field"]),
     ("modbus", &["field", "walk"]),
-    ("frame", &["field", "walk", "modbus"]),
+    ("profibus", &["field", "walk"]),
+    ("frame", &["field", "walk", "modbus", "profibus"]),
+    ("device", &["field", "walk"]),
     ("text", &["field"]),
-    ("dialogue", &["field", "walk", "modbus", "frame"]),
-    ("tool", &["field", "walk", "modbus", "frame", "text", "dialogue"]),
+    ("dialogue", &["field", "walk", "modbus", "profibus", "frame"]),
+    ("tool", &["field", "walk", "modbus", "profibus", "frame", "device", "text", "dialogue"]),
     ("app", &["field", "tool"]),
 ];
 
