@@ -5,7 +5,7 @@ use std::io::{Read, Write as _};
 use std::process::ExitCode;
 
 use buslens::field::Direction;
-use buslens::tool::{Options, decode, json};
+use buslens::tool::{Options, PROFILES, PROTOCOLS, decode, json};
 
 fn main() -> ExitCode {
     match run() {
@@ -37,10 +37,18 @@ fn run() -> Result<String, String> {
             known.ok_or_else(|| format!("{name} takes {}, not “{value}”", either(allowed)))
         };
         match name.as_str() {
-            "--help" | "-h" => return Ok(HELP.to_owned()),
+            "--help" | "-h" => return Ok(help()),
             "--fields" => fields = true,
-            "--protocol" => _ = choice(&["auto", "modbus-rtu"])?,
-            "--device" => _ = choice(&["none"])?,
+            "--protocol" => {
+                let keys = keys("auto", PROTOCOLS.iter().map(|protocol| protocol.key));
+                let key = choice(&keys)?;
+                options.protocol = PROTOCOLS.iter().copied().find(|protocol| protocol.key == key);
+            }
+            "--device" => {
+                let keys = keys("none", PROFILES.iter().map(|profile| profile.key));
+                let key = choice(&keys)?;
+                options.device = PROFILES.iter().copied().find(|profile| profile.key == key);
+            }
             "--input" => _ = choice(&["auto", "text"])?,
             "--language" => _ = choice(&["en"])?,
             "--direction" => {
@@ -91,11 +99,26 @@ fn either(words: &[&str]) -> String {
     text
 }
 
-const HELP: &str = "\
+/// `first`, then the others.
+fn keys(first: &'static str, others: impl Iterator<Item = &'static str>) -> Vec<&'static str> {
+    std::iter::once(first).chain(others).collect()
+}
+
+fn help() -> String {
+    let list = |keys: Vec<&'static str>| keys.join("\n             ");
+    format!(
+        "\
 Prints the telegrams of a text as JSON Lines, and a summary at the end.
 
-decode [--protocol auto|modbus-rtu] [--device none] [--direction auto|request|response]
+decode [--protocol PROTOCOL] [--device DEVICE] [--direction auto|request|response]
        [--input auto|text] [--language en] [--fields] [FILE]
 
+PROTOCOL:    {}
+DEVICE:      {}
+
 Without FILE, or with -, it reads standard input. --fields adds the tree of fields.
-";
+",
+        list(keys("auto", PROTOCOLS.iter().map(|protocol| protocol.key))),
+        list(keys("none", PROFILES.iter().map(|profile| profile.key))),
+    )
+}

@@ -1,6 +1,7 @@
 //! What holds for every telegram, whatever its bytes: run over all kinds, in the frame.
 
 use buslens::field::{Direction, Field, Value, leaves, problems};
+use buslens::frame::Frame;
 use buslens::frame::modbus_rtu::{AROUND, Rtu, SHORTEST};
 use buslens::modbus::{KINDS, Kind, Length, OTHER_KINDS, Pdu, STANDARD};
 use buslens::tool::{Options, Verdict, decode};

@@ -11,7 +11,7 @@ use rmodbus::client::ModbusRequest;
 /// What Buslens reads in `bytes`, which must be without a problem.
 fn read(bytes: &[u8], direction: Direction) -> Detail {
     let text = buslens::field::hex(bytes);
-    let report = decode(&text, Options { direction: Some(direction) });
+    let report = decode(&text, Options { direction: Some(direction), ..Options::default() });
     let detail = report.detail(0).expect("one telegram");
     assert_eq!(report.telegrams[0].verdict, Verdict::Right, "{text}");
     assert_eq!(detail.problems(), [] as [&buslens::field::Problem; 0], "{text}");

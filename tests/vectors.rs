@@ -1,8 +1,10 @@
 //! One small file for each telegram, below `tests/vectors`.
 //!
 //! The head is written by hand: what it is, its `source`, the `hex` as pasted, the true `direction`
-//! and `check`, and the codes of its `problems`, if it has some. Behind `---` stands what Buslens
-//! makes of it; `BLESS=1 cargo test --test vectors` rewrites that part, and only that part.
+//! and `check`, the codes of its `problems`, if it has some, and its `protocol`, if that is not
+//! Modbus RTU. `before` has telegrams that came before it on the line, parted by `|`; `device` names
+//! the device whose table is to be used. Behind `---` stands what Buslens makes of it; `BLESS=1 cargo
+//! test --test vectors` rewrites that part, and only that part.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -10,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 use buslens::field::{Field, Severity, Value, leaves};
 use buslens::modbus::{KINDS, OTHER_KINDS};
-use buslens::tool::{Certainty, Detail, Options, Report, Verdict, decode};
+use buslens::tool::{Certainty, Detail, Options, PROFILES, Report, Telegram, Verdict, decode};
 
 #[test]
 fn every_vector_reads_as_written() {
@@ -19,12 +21,13 @@ fn every_vector_reads_as_written() {
     for path in vectors() {
         let text = std::fs::read_to_string(&path).unwrap();
         let vector = Vector::parse(&text);
-        let report = decode(vector.head("hex"), Options::default());
-        let detail = report.detail(0).unwrap_or_else(|| panic!("{}: no telegram", path.display()));
-        let shown = show(&report, &detail);
+        let (report, index) = vector.decode();
+        let detail = report.detail(index).unwrap_or_else(|| panic!("{}: no telegram", path.display()));
+        let shown = show(&report, index, &detail);
         let name = path.file_stem().unwrap().to_string_lossy().into_owned();
-        for (key, truth) in truths(&report, &detail) {
-            let stated = vector.find(key).unwrap_or("none");
+        for (key, truth) in truths(&report.telegrams[index], &detail) {
+            let otherwise = if key == "protocol" { "modbus-rtu" } else { "none" };
+            let stated = vector.find(key).unwrap_or(otherwise);
             if stated != truth {
                 failures.push(format!("{name}: {key} is {truth}, stated {stated}"));
             }
@@ -47,8 +50,8 @@ fn every_kind_has_a_vector() {
         .iter()
         .filter_map(|path| {
             let text = std::fs::read_to_string(path).unwrap();
-            let report = decode(Vector::parse(&text).head("hex"), Options::default());
-            let fields = report.detail(0)?.fields;
+            let (report, index) = Vector::parse(&text).decode();
+            let fields = report.detail(index)?.fields;
             leaves(&fields).into_iter().find_map(|leaf| match leaf.value {
                 Value::Selector { chosen, .. } => Some(chosen.key),
                 _ => None,
@@ -68,11 +71,11 @@ fn the_memograph_manual_is_complete() {
     let (mut right, mut wrong) = (0, 0);
     for path in vectors().iter().filter(|path| path.parent().unwrap().ends_with("memograph")) {
         let text = std::fs::read_to_string(path).unwrap();
-        let report = decode(Vector::parse(&text).head("hex"), Options::default());
-        match report.telegrams[0].verdict {
+        let (report, index) = Vector::parse(&text).decode();
+        match report.telegrams[index].verdict {
             Verdict::Right => right += 1,
             Verdict::Wrong => wrong += 1,
-            Verdict::Unchecked => panic!("{}: not checked", path.display()),
+            Verdict::Unchecked | Verdict::NoCheck => panic!("{}: not checked", path.display()),
         }
     }
     assert_eq!((right, wrong), (58, 13));
@@ -92,6 +95,18 @@ impl<'a> Vector<'a> {
 
     fn find(&self, key: &str) -> Option<&'a str> {
         self.head.lines().find_map(|line| line.strip_prefix(key)?.strip_prefix(": "))
+    }
+
+    /// The report of all telegrams, and the index of the vector's.
+    fn decode(&self) -> (Report, usize) {
+        let before = self.find("before").map_or(String::new(), |before| before.replace('|', "\n") + "\n");
+        let device = self.find("device").map(|key| {
+            let known = PROFILES.iter().copied().find(|profile| profile.key == key);
+            known.unwrap_or_else(|| panic!("no device {key}"))
+        });
+        let report = decode(&(before + self.head("hex")), Options { device, ..Options::default() });
+        let last = report.telegrams.len().saturating_sub(1);
+        (report, last)
     }
 
     fn head(&self, key: &str) -> &'a str {
@@ -117,8 +132,7 @@ fn vectors() -> Vec<PathBuf> {
 }
 
 /// What the head of a vector states.
-fn truths(report: &Report, detail: &Detail) -> [(&'static str, String); 3] {
-    let telegram = &report.telegrams[0];
+fn truths(telegram: &Telegram, detail: &Detail) -> [(&'static str, String); 4] {
     let direction = telegram.guess.direction.key();
     let direction = match telegram.guess.certainty {
         Certainty::Certain => direction.to_owned(),
@@ -128,25 +142,34 @@ fn truths(report: &Report, detail: &Detail) -> [(&'static str, String); 3] {
     let check = match telegram.verdict {
         Verdict::Right => "right",
         Verdict::Wrong => "wrong",
-        Verdict::Unchecked => "none",
+        Verdict::Unchecked | Verdict::NoCheck => "none",
     };
     let mut codes: Vec<_> = detail.problems().iter().map(|problem| problem.code).collect();
     codes.extend(telegram.line.remarks.iter().map(|remark| remark.code));
     let problems = if codes.is_empty() { "none".to_owned() } else { codes.join(", ") };
-    [("direction", direction), ("check", check.to_owned()), ("problems", problems)]
+    let protocol = telegram.choice.protocol.key.to_owned();
+    [("protocol", protocol), ("direction", direction), ("check", check.to_owned()), ("problems", problems)]
 }
 
 /// A telegram as text that a reviewer can read.
-fn show(report: &Report, detail: &Detail) -> String {
+fn show(report: &Report, index: usize, detail: &Detail) -> String {
+    let telegram = &report.telegrams[index];
     let mut text = String::new();
-    let guess = &report.telegrams[0].guess;
     writeln!(text, "{}.", detail.meaning().sentence()).unwrap();
-    writeln!(text, "{}; {}", detail.kind, guess.reason).unwrap();
+    writeln!(text, "{}; {}", detail.kind, telegram.guess.reason).unwrap();
     for field in &detail.fields {
         show_field(&mut text, field, 0);
     }
-    for remark in &report.telegrams[0].line.remarks {
+    for remark in &telegram.line.remarks {
         writeln!(text, "text {}..{}: {}", remark.span.from, remark.span.to, remark.message).unwrap();
+    }
+    for problem in &detail.device.problems {
+        writeln!(text, "device {}: {}", problem.code, problem.message).unwrap();
+    }
+    for block in &detail.device.blocks {
+        let note = block.note.as_ref().map(|note| format!("; {note}")).unwrap_or_default();
+        writeln!(text, "device {}{note}", block.registers()).unwrap();
+        show_field(&mut text, &block.field, 0);
     }
     text
 }

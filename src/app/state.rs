@@ -4,7 +4,7 @@
 use leptos::prelude::*;
 
 use super::browser;
-use crate::field::{Direction, Field, Span, leaves};
+use crate::field::{Field, Span, leaves};
 use crate::tool::{Detail, Options, Report, Summary, Telegram, decode};
 
 /// The page's state, as handed to every part of it.
@@ -20,8 +20,8 @@ pub struct State {
 #[derive(Default)]
 pub struct Decoded {
     pub text: String,
-    /// Who speaks, where a person said so.
-    pub direction: Option<Direction>,
+    /// How the input is to be read, where a person said so.
+    pub options: Options,
     pub report: Report,
     /// The telegram that is shown, if there is one.
     pub shown: Option<Shown>,
@@ -71,7 +71,7 @@ impl Decoded {
     }
 
     fn decode(&mut self) {
-        self.report = decode(&self.text, Options { direction: self.direction });
+        self.report = decode(&self.text, self.options.clone());
     }
 
     /// Shows telegram `index`, or the last one if there are fewer.
@@ -103,7 +103,7 @@ impl State {
     pub fn load(&self, text: &str) {
         // The replaced text comes back to us as an input event.
         browser::replace_undoably(browser::INPUT, text);
-        self.direct(None);
+        self.read_as(|options| options.direction = None);
     }
 
     /// The cursor moved in the input.
@@ -113,10 +113,10 @@ impl State {
         }
     }
 
-    /// A person says who speaks.
-    pub fn direct(&self, direction: Option<Direction>) {
+    /// A person says how the input is to be read.
+    pub fn read_as(&self, set: impl FnOnce(&mut Options)) {
         self.change(|decoded| {
-            decoded.direction = direction;
+            set(&mut decoded.options);
             decoded.decode();
             decoded.show(decoded.index());
         });

@@ -10,4 +10,5 @@ pub static PROFILE: Profile = Profile {
     parameters: &[],
     most_registers: None,
     display: &[],
+    lessons: &[],
 };

@@ -7,6 +7,9 @@
 mod keb_f5_modbus;
 mod keb_f5_profibus;
 mod memograph_rsg45;
+mod read;
+
+pub use read::{Block, Numbers, Process, Registers, Said};
 
 use crate::field::Spec;
 use crate::walk::Telegram;
@@ -32,6 +35,17 @@ pub struct Profile {
     pub most_registers: Option<usize>,
     /// What its display shows when something is wrong.
     pub display: &'static [Display],
+    /// Registers that set up what others mean.
+    pub lessons: &'static [Lesson],
+}
+
+/// Registers from `from` on, `count` of them, that set up what others mean.
+#[derive(Debug)]
+pub struct Lesson {
+    pub from: u16,
+    pub count: u16,
+    /// Takes the number of the register among them and its new value.
+    pub learn: fn(usize, u32, &mut Settings),
 }
 
 /// Registers, or indices of a parameter channel, that follow each other and hold the same kind of thing.
@@ -108,6 +122,104 @@ pub struct Display {
     /// As the seven segments write it.
     pub text: &'static str,
     pub meaning: &'static str,
+}
+
+/// What a user set up in a device, as far as it changes what its registers mean.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    pub read_mapping: Mapping,
+    pub write_mapping: Mapping,
+    /// What the words of process data mean, towards the device and from it.
+    pub process_output: Vec<Mapped>,
+    pub process_input: Vec<Mapped>,
+}
+
+/// A list that gives registers their parameters, as an F5 Modbus operator holds it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mapping {
+    /// The register that the first entry stands for.
+    pub start: u16,
+    pub entries: Vec<Entry>,
+}
+
+/// An entry of a mapping list: parameter address (16 bits), set mask (8), words (8).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Entry(pub u32);
+
+/// A word of process data: which parameter, in which sets. The second word of a 32-bit value has
+/// index 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Mapped {
+    pub index: u16,
+    pub sets: u8,
+}
+
+impl Entry {
+    pub const fn parameter(self) -> u16 {
+        (self.0 >> 16) as u16
+    }
+
+    pub const fn sets(self) -> u8 {
+        (self.0 >> 8) as u8
+    }
+
+    /// 1 for a value of 16 bits, 2 for one of 32.
+    pub const fn words(self) -> u8 {
+        self.0 as u8
+    }
+}
+
+impl Mapping {
+    /// Number and entry of the register at `address`; a 32-bit value's second register has that of
+    /// its first.
+    pub fn entry(&self, address: u16) -> Option<(usize, Entry)> {
+        let n = usize::from(address.checked_sub(self.start)?);
+        match self.entries.get(n)? {
+            Entry(0) => {
+                n.checked_sub(1).map(|n| (n, self.entries[n])).filter(|(_, entry)| entry.words() == 2)
+            }
+            entry => Some((n, *entry)),
+        }
+    }
+
+    /// Sets entry `n`, with empty ones before it where there are none yet.
+    pub fn set(&mut self, n: usize, entry: Entry) {
+        if self.entries.len() <= n {
+            self.entries.resize(n + 1, Entry::default());
+        }
+        self.entries[n] = entry;
+    }
+}
+
+impl Settings {
+    /// The list that counts for what the client wants.
+    pub fn mapping(&self, access: Access) -> &Mapping {
+        if access == Access::Write { &self.write_mapping } else { &self.read_mapping }
+    }
+}
+
+impl Profile {
+    /// Takes from a register's new value how the device is set up from then on.
+    pub fn learn(&self, address: u16, value: u32, settings: &mut Settings) {
+        let inside = |lesson: &&Lesson| (lesson.from..lesson.from + lesson.count).contains(&address);
+        if let Some(lesson) = self.lessons.iter().find(inside) {
+            (lesson.learn)(usize::from(address - lesson.from), value, settings);
+        }
+    }
+}
+
+impl Default for Settings {
+    /// As the devices come from their makers: the F5's process data are control word and set speed,
+    /// status word and actual speed.
+    fn default() -> Self {
+        let word = |index| Mapped { index, sets: 1 };
+        Self {
+            read_mapping: Mapping::default(),
+            write_mapping: Mapping::default(),
+            process_output: vec![word(0x2032), word(0x2034)],
+            process_input: vec![word(0x2033), word(0x2035)],
+        }
+    }
 }
 
 impl Area {

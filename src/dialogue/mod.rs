@@ -1,8 +1,10 @@
-//! What telegrams say about each other, and what their lengths say about them: who speaks, and
-//! which response answers which request.
+//! What telegrams say about each other, and what their bytes say about them: which protocol they
+//! are of, who speaks, and which response answers which request.
 
 mod guess;
 mod pair;
+mod protocol;
 
 pub use guess::{Certainty, Guess, direction};
 pub use pair::Pairing;
+pub use protocol::{Candidate, Choice, protocols};

@@ -2,38 +2,43 @@ use crate::field::Direction;
 
 /// Finds the request that a response answers, telegram after telegram.
 ///
-/// One client speaks on a serial line, and it waits: a response answers the request just before
-/// it, if unit and function are the same.
+/// What the two have in common is a number that the protocol makes: unit and function on a serial
+/// line, the transaction as well over TCP. On a serial line one client speaks, and it waits: a
+/// response answers the request just before it. Over TCP several requests can wait.
 #[derive(Debug, Default)]
 pub struct Pairing {
-    waiting: Option<Waiting>,
+    /// Oldest first.
+    waiting: Vec<Waiting>,
 }
 
 #[derive(Debug)]
 struct Waiting {
     /// The request's place in the caller's list.
     index: usize,
-    /// Unit and function code without the exception bit.
-    asked: [u8; 2],
+    exchange: u64,
 }
 
 impl Pairing {
-    /// Takes the next telegram of the line, `index` in the caller's list. Returns the index of the
-    /// request that it answers.
-    pub fn next(&mut self, index: usize, direction: Direction, unit: u8, function: u8) -> Option<usize> {
-        let asked = [unit, function & !crate::modbus::EXCEPTION];
+    /// Takes the next telegram, `index` in the caller's list; `most` requests can wait. Returns the
+    /// index of the request that it answers.
+    pub fn next(&mut self, index: usize, direction: Direction, exchange: u64, most: usize) -> Option<usize> {
         match direction {
             Direction::Request => {
-                self.waiting = Some(Waiting { index, asked });
+                self.waiting.push(Waiting { index, exchange });
+                let too_many = self.waiting.len().saturating_sub(most);
+                self.waiting.drain(..too_many);
                 None
             }
-            Direction::Response => self.waiting.take_if(|waiting| waiting.asked == asked).map(|w| w.index),
+            Direction::Response => {
+                let asked = self.waiting.iter().position(|waiting| waiting.exchange == exchange)?;
+                Some(self.waiting.remove(asked).index)
+            }
         }
     }
 
-    /// The request that waits for an answer.
+    /// The newest request that waits for an answer.
     pub fn waiting(&self) -> Option<usize> {
-        self.waiting.as_ref().map(|waiting| waiting.index)
+        self.waiting.last().map(|waiting| waiting.index)
     }
 }
 
@@ -45,20 +50,29 @@ mod tests {
     #[test]
     fn a_response_answers_the_request_before_it() {
         let mut pairing = Pairing::default();
-        assert_eq!(pairing.next(0, Request, 1, 3), None);
-        assert_eq!(pairing.next(1, Response, 1, 3), Some(0));
-        assert_eq!(pairing.next(2, Response, 1, 3), None, "answered only once");
-        assert_eq!(pairing.next(3, Request, 1, 16), None);
-        assert_eq!(pairing.next(4, Response, 2, 16), None, "another unit");
-        assert_eq!(pairing.next(5, Response, 1, 0x90), Some(3), "a refusal answers, too");
+        assert_eq!(pairing.next(0, Request, 0x0103, 1), None);
+        assert_eq!(pairing.next(1, Response, 0x0103, 1), Some(0));
+        assert_eq!(pairing.next(2, Response, 0x0103, 1), None, "answered only once");
+        assert_eq!(pairing.next(3, Request, 0x0110, 1), None);
+        assert_eq!(pairing.next(4, Response, 0x0210, 1), None, "another unit");
+        assert_eq!(pairing.next(5, Response, 0x0110, 1), Some(3));
     }
 
     #[test]
     fn a_new_request_takes_the_place_of_an_unanswered_one() {
         let mut pairing = Pairing::default();
-        pairing.next(0, Request, 1, 3);
-        pairing.next(1, Request, 1, 4);
-        assert_eq!(pairing.next(2, Response, 1, 3), None);
-        assert_eq!(pairing.next(3, Response, 1, 4), Some(1));
+        pairing.next(0, Request, 0x0103, 1);
+        pairing.next(1, Request, 0x0104, 1);
+        assert_eq!(pairing.next(2, Response, 0x0103, 1), None);
+        assert_eq!(pairing.next(3, Response, 0x0104, 1), Some(1));
+    }
+
+    #[test]
+    fn where_several_can_wait_each_finds_its_own() {
+        let mut pairing = Pairing::default();
+        pairing.next(0, Request, 1, 2);
+        pairing.next(1, Request, 2, 2);
+        assert_eq!(pairing.next(2, Response, 2, 2), Some(1));
+        assert_eq!(pairing.next(3, Response, 1, 2), Some(0));
     }
 }

@@ -37,6 +37,10 @@ impl Span {
         self.from == self.to
     }
 
+    pub const fn shifted(self, by: usize) -> Self {
+        Self::new(self.from + by, self.to + by)
+    }
+
     pub const fn contains(self, position: usize) -> bool {
         self.from <= position && position < self.to
     }
@@ -122,6 +126,17 @@ impl Field {
             _ => None,
         };
         number.into_iter().flat_map(|raw| self.spec.bits.iter().map(move |part| (part, part.of(raw))))
+    }
+
+    /// Moves the field and all below it: what was read by itself takes its place in a telegram.
+    pub fn shift(&mut self, by: usize) {
+        self.span = self.span.shifted(by);
+        for problem in &mut self.problems {
+            problem.span = problem.span.shifted(by);
+        }
+        for child in &mut self.children {
+            child.shift(by);
+        }
     }
 
     /// Calls `visit` for this field and all below it, parents first.

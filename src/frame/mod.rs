@@ -1,3 +1,98 @@
-//! Frames: what carries a PDU over a line, with address and check.
+//! Frames: what carries a telegram over a line or a network, with address and check.
+//!
+//! One file for each; [`PROTOCOLS`] lists them.
 
+pub mod modbus_ascii;
+pub mod modbus_pdu;
 pub mod modbus_rtu;
+pub mod modbus_serial;
+pub mod modbus_tcp;
+
+use crate::field::{Direction, Message};
+use crate::modbus::{Dialect, Pdu, STANDARD};
+use crate::walk::Telegram;
+
+/// Every protocol. Where bytes fit several equally well, the first one counts.
+pub static PROTOCOLS: &[&Protocol] =
+    &[&modbus_rtu::PROTOCOL, &modbus_tcp::PROTOCOL, &modbus_ascii::PROTOCOL, &modbus_pdu::PROTOCOL];
+
+/// A way to carry telegrams.
+#[derive(Debug)]
+pub struct Protocol {
+    /// Stable word of exports and settings.
+    pub key: &'static str,
+    pub label: &'static str,
+    /// How well bytes fit, and what speaks for it.
+    pub fit: fn(&[u8], &Settings) -> Fit,
+    /// What the check says.
+    pub verdict: fn(&[u8]) -> Verdict,
+    /// How many of `bytes` the first telegram takes, where several may come in one piece.
+    pub first: fn(&[u8]) -> usize,
+    /// What tells who speaks.
+    pub speaker: Speaker,
+    /// What request and response have in common.
+    pub exchange: fn(&[u8]) -> Option<u64>,
+    /// A line with many units, which has a broadcast address.
+    pub serial: bool,
+    /// How many requests can wait for their responses at a time.
+    pub waiting: usize,
+    /// An empty frame to read the bytes into.
+    pub expect: fn(&[u8], Direction, &Settings) -> Box<dyn Frame>,
+}
+
+/// What tells a request from a response.
+#[derive(Clone, Copy, Debug)]
+pub enum Speaker {
+    /// Function code and length of the PDU: gives the PDU, and how many bytes are around it.
+    Pdu(fn(&[u8]) -> (&[u8], usize)),
+}
+
+/// How well bytes fit a protocol.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fit {
+    /// How many bits of random bytes would have to come out right to look so: 16 for a CRC.
+    pub bits: u32,
+    /// What speaks for the protocol.
+    pub reason: Message,
+}
+
+/// What a check says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    Right,
+    Wrong,
+    /// Too short to have a check.
+    Unchecked,
+    /// The protocol has none: what is below it checks.
+    NoCheck,
+}
+
+/// How devices are set up, as far as telegrams depend on it.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    pub dialect: &'static Dialect,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { dialect: &STANDARD }
+    }
+}
+
+/// A telegram with all that carries it.
+pub trait Frame: Telegram {
+    /// What is carried.
+    fn content(&self) -> Content<'_>;
+
+    /// The telegram in one sentence.
+    fn meaning(&self) -> Message;
+
+    /// Takes from the request what a response does not repeat, before the response is read.
+    fn answer(&mut self, request: &Content<'_>);
+}
+
+/// What a frame carries.
+pub enum Content<'a> {
+    /// A unit's PDU; a bare PDU does not say which unit.
+    Modbus { unit: Option<u8>, pdu: &'a Pdu },
+}

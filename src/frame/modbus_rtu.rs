@@ -1,16 +1,34 @@
 //! The Modbus RTU frame: unit address (1 byte), PDU, CRC-16/MODBUS (2 bytes, low byte first).
 //!
-//! The line is silent for 3.5 characters before and after. 4 to 256 bytes.
+//! The line is silent for 3.5 characters before and after. 4 to 256 bytes. RTU frames also come
+//! inside TCP, from converters that pass on what they hear: the bytes are the same.
 //!
 //! Source: Modbus over serial line V1.02, sections 2.2 and 2.5.1.
 
-use crate::field::{Direction, Message, Name, Role, Severity, Spec};
+use super::modbus_serial::{self as serial, answer, check_length, head};
+use super::{Content, Fit, Frame, Protocol, Speaker, Verdict};
+use crate::field::{Direction, Message, Role, Spec};
 use crate::message;
-use crate::modbus::{Dialect, LONGEST_PDU, Pdu, Server};
+use crate::modbus::{Dialect, LONGEST_PDU, Pdu};
 use crate::walk::{CRC_16_MODBUS, Telegram, Walk, Walker};
 
-/// The unit that everybody on the line listens to.
-pub const BROADCAST: u8 = 0;
+pub use serial::BROADCAST;
+
+pub static PROTOCOL: Protocol = Protocol {
+    key: "modbus-rtu",
+    label: "Modbus RTU",
+    fit: |bytes, settings| match verdict(bytes) {
+        Verdict::Right => Fit { bits: 20, reason: message!("its last two bytes are the CRC of the others") },
+        _ => serial::fit(Rtu::pdu_bytes(bytes), settings.dialect),
+    },
+    verdict,
+    first: <[u8]>::len,
+    speaker: Speaker::Pdu(|bytes| (Rtu::pdu_bytes(bytes), AROUND)),
+    exchange: serial::exchange,
+    serial: true,
+    waiting: 1,
+    expect: |bytes, direction, settings| Box::new(Rtu::expect(bytes, direction, settings.dialect)),
+};
 
 /// The bytes around the PDU: unit and CRC.
 pub const AROUND: usize = 3;
@@ -30,8 +48,7 @@ pub struct Rtu {
 impl Rtu {
     /// An empty frame to read `bytes` into.
     pub fn expect(bytes: &[u8], direction: Direction, dialect: &'static Dialect) -> Self {
-        let function = bytes.get(1).copied().unwrap_or_default();
-        let unit = bytes.first().copied().unwrap_or_default();
+        let [unit, function] = head(bytes);
         Self { unit, pdu: Pdu::expect(function, direction, dialect) }
     }
 
@@ -52,81 +69,40 @@ impl Rtu {
             CRC_16_MODBUS.wire(covered) == u64::from(u16::from_be_bytes(*check))
         })
     }
+}
 
-    /// The telegram in one sentence.
-    pub fn meaning(&self) -> Message {
-        self.pdu.body.meaning(match self.unit {
-            BROADCAST => Server::All,
-            unit => Server::Unit(unit),
-        })
+fn verdict(bytes: &[u8]) -> Verdict {
+    match bytes.len() {
+        ..SHORTEST => Verdict::Unchecked,
+        _ if Rtu::check_matches(bytes) => Verdict::Right,
+        _ => Verdict::Wrong,
     }
 }
 
 impl Telegram for Rtu {
     fn walk(&mut self, w: &mut dyn Walker) -> Walk {
         let start = w.mark();
-        w.window(2, &mut |w| {
-            w.u8(&UNIT, &mut self.unit)?;
-            if self.unit > 247 {
-                w.remark(
-                    &UNIT,
-                    Severity::Warning,
-                    "reserved-address",
-                    message!("unit {unit} is reserved: units have the numbers 1 to 247", unit = self.unit),
-                );
-            }
-            let walk = self.pdu.walk(w);
-            self.check_broadcast(w);
-            walk
-        })?;
+        serial::walk(w, &mut self.unit, &mut self.pdu, CRC_16_MODBUS.width)?;
         w.checksum(&CRC, &CRC_16_MODBUS, start)?;
         let length = w.mark() - start;
-        if length > LONGEST {
-            w.remark(
-                &CRC,
-                Severity::Error,
-                "frame-too-long",
-                message!(
-                    "the frame has {length} bytes; a Modbus RTU frame has at most {longest}",
-                    length = length,
-                    longest = LONGEST
-                ),
-            );
-        }
+        check_length(w, &CRC, length, LONGEST);
         Ok(())
     }
 }
 
-impl Rtu {
-    fn check_broadcast(&self, w: &mut dyn Walker) {
-        if self.unit != BROADCAST {
-            return;
-        }
-        let reads = self.pdu.body.access().is_some_and(|access| !access.write);
-        if self.pdu.direction == Direction::Response {
-            w.remark(
-                &UNIT,
-                Severity::Error,
-                "broadcast-answered",
-                message!("unit 0 is the broadcast address: nobody answers from it"),
-            );
-        } else if reads {
-            w.remark(
-                &UNIT,
-                Severity::Error,
-                "broadcast-read",
-                message!("a broadcast can only write: no unit answers a read from all"),
-            );
-        }
+impl Frame for Rtu {
+    fn content(&self) -> Content<'_> {
+        Content::Modbus { unit: Some(self.unit), pdu: &self.pdu }
+    }
+
+    fn meaning(&self) -> Message {
+        serial::meaning(self.unit, &self.pdu)
+    }
+
+    fn answer(&mut self, request: &Content<'_>) {
+        answer(&mut self.pdu, request);
     }
 }
-
-static UNIT: Spec = Spec::new("unit", "Unit address")
-    .short("Unit")
-    .role(Role::Unit)
-    .note("Which device is meant (older texts: slave address). 1 to 247; 0 speaks to all at once.")
-    .source("Modbus over serial line V1.02, 2.2")
-    .names(&[Name { value: 0, label: "all units (broadcast)", note: "Every unit obeys, none answers." }]);
 
 static CRC: Spec = Spec::new("crc", "CRC")
     .role(Role::Check)

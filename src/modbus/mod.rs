@@ -145,6 +145,8 @@ pub trait Body: Telegram {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Server {
     Unit(u8),
+    /// A PDU by itself does not say which.
+    Unsaid,
     /// Every unit on the line listens, none answers.
     All,
 }
@@ -154,6 +156,7 @@ impl Server {
     pub fn name(self) -> Message {
         match self {
             Self::Unit(unit) => message!("unit {unit}", unit = unit),
+            Self::Unsaid => message!("the server"),
             Self::All => message!("all units"),
         }
     }

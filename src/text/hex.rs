@@ -26,6 +26,8 @@ pub struct Line {
     /// Where each of `bytes` stands in the text.
     pub places: Vec<Span>,
     pub remarks: Vec<Remark>,
+    /// The bytes are hex digits behind a colon, without anything between: `:0103…`.
+    pub colon: bool,
 }
 
 /// Something in the text that is not as it should be, or was read in a way worth telling.
@@ -218,6 +220,7 @@ struct Scan<'a> {
 impl Scan<'_> {
     fn run(&mut self) {
         let mut at = self.after_declaration();
+        self.line.colon = self.is_behind_colon(at);
         let in_code = at > 0;
         while at < self.letters.len() {
             if let Some(length) = comment_length(&self.letters[at..]) {
@@ -236,6 +239,15 @@ impl Scan<'_> {
             };
         }
         self.settle_lone_digits();
+    }
+
+    /// Whether from `at` on there is nothing but a colon and at least three bytes in one run.
+    fn is_behind_colon(&self, at: usize) -> bool {
+        let letters = self.letters[at..].iter().map(|letter| letter.c);
+        let mut rest = letters.skip_while(|c| c.is_whitespace()).peekable();
+        let colon = rest.next() == Some(':');
+        let digits = std::iter::from_fn(|| rest.next_if(char::is_ascii_hexdigit)).count();
+        colon && digits >= 6 && rest.all(char::is_whitespace)
     }
 
     fn c(&self, at: usize) -> Option<char> {
@@ -601,6 +613,21 @@ mod tests {
             "01\u{2013}03\u{2013}00\u{2013}C8\u{2013}00\u{2013}03\u{2013}84\u{2013}35",
         ] {
             assert_eq!(clean(text), TELEGRAM, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_colon_before_a_run_of_digits_is_told() {
+        for (text, colon) in [
+            (":010300C80003", true),
+            ("  :010300c80003\r\n", true),
+            ("01:03:00", false),
+            (":01", false),
+            (":01 03 00 C8", false),
+            (":0103G0", false),
+            (":010300G", false),
+        ] {
+            assert_eq!(read(text).lines[0].colon, colon, "{text}");
         }
     }
 

@@ -3,7 +3,8 @@
 use serde::Serialize;
 
 use super::{Certainty, Detail, Report, Telegram, Verdict};
-use crate::field::{Field, hex};
+use crate::device::Block;
+use crate::field::{Field, Message, hex};
 
 /// One telegram. Keys that do not apply are left out.
 #[derive(Debug, Serialize)]
@@ -30,8 +31,11 @@ pub struct Row {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub count: Option<usize>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub values: Vec<u32>,
+    pub values: Vec<RawValue>,
     pub meaning: String,
+    /// What the device's manual says about the registers.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub device: Vec<Known>,
     /// The number of the request that this answers, or of its response.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pair: Option<usize>,
@@ -39,6 +43,30 @@ pub struct Row {
     pub problems: Vec<Problem>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fields: Option<Vec<Node>>,
+}
+
+/// A register's number, or a coil's state.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+pub enum RawValue {
+    Number(u32),
+    Coil(bool),
+}
+
+/// A block of registers, or a parameter.
+#[derive(Debug, Serialize)]
+pub struct Known {
+    pub name: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub value: Option<String>,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    pub unit: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub status: Option<String>,
+    /// The addresses that the telegram has of it: `215 to 217`.
+    pub register: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub note: Option<String>,
 }
 
 #[derive(Debug, Serialize)]
@@ -122,7 +150,7 @@ fn row(index: usize, telegram: &Telegram, detail: Detail, fields: bool) -> Row {
         n: index + 1,
         line: line.number,
         length: line.bytes.len(),
-        protocol: "modbus-rtu",
+        protocol: telegram.choice.protocol.key,
         direction: match telegram.guess.certainty {
             Certainty::Open => "unknown",
             Certainty::Certain | Certainty::Likely => telegram.guess.direction.key(),
@@ -131,33 +159,61 @@ fn row(index: usize, telegram: &Telegram, detail: Detail, fields: bool) -> Row {
         unit: detail.unit,
         function: detail.function,
         exception: detail.exception,
-        check: detail.check().filter(|_| telegram.verdict != Verdict::Unchecked).map(|check| Check {
-            kind: check.kind,
-            ok: check.ok(),
-            found: check.found_bytes(),
-            computed: check.computed_bytes(),
-        }),
+        check: detail.check().filter(|_| matches!(telegram.verdict, Verdict::Right | Verdict::Wrong)).map(
+            |check| Check {
+                kind: check.kind,
+                ok: check.ok(),
+                found: check.found_bytes(),
+                computed: check.computed_bytes(),
+            },
+        ),
         start: detail.start,
         count: detail.count,
         meaning: detail.meaning().sentence() + ".",
         pair: telegram.answers.or(telegram.answered_by).map(|index| index + 1),
         problems: problems.chain(remarks).collect(),
         fields: fields.then(|| detail.fields.iter().map(node).collect()),
-        values: detail.values,
+        values: detail.values.iter().map(|value| raw(*value, detail.coils)).collect(),
+        device: detail.device.blocks.iter().map(known).collect(),
+    }
+}
+
+fn raw(value: u32, coil: bool) -> RawValue {
+    if coil { RawValue::Coil(value != 0) } else { RawValue::Number(value) }
+}
+
+fn known(block: &Block) -> Known {
+    let text = |message: Message| message.to_string();
+    Known {
+        name: text(block.field.label()),
+        value: block.value().map(text),
+        unit: block.field.spec.unit,
+        status: block.status().map(text),
+        register: block.registers(),
+        note: block.note.clone().map(text),
     }
 }
 
 fn node(field: &Field) -> Node {
     let meaning = field.meaning().map(|meaning| meaning.to_string());
-    let parts = [Some(field.value_text()), meaning];
-    let text: Vec<String> = parts.into_iter().flatten().filter(|part| !part.is_empty()).collect();
+    let texts = [Some(field.value_text()), meaning];
+    let text: Vec<String> = texts.into_iter().flatten().filter(|part| !part.is_empty()).collect();
+    let span = [field.span.from, field.span.to];
+    let parts = field.parts().map(|(part, value)| Node {
+        key: part.key,
+        label: part.label.to_owned(),
+        span,
+        value: Some(value),
+        text: part.name(value).map_or(String::new(), |name| name.label.to_owned()),
+        fields: Vec::new(),
+    });
     Node {
         key: field.spec.key,
         label: field.label().to_string(),
-        span: [field.span.from, field.span.to],
+        span,
         value: field.value.raw(),
         text: text.join(": "),
-        fields: field.children.iter().map(node).collect(),
+        fields: parts.chain(field.children.iter().map(node)).collect(),
     }
 }
 

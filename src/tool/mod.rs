@@ -5,7 +5,9 @@ pub mod examples;
 #[cfg(feature = "json")]
 pub mod json;
 
+pub use crate::device::{PROFILES, Profile};
 pub use crate::dialogue::Certainty;
+pub use crate::frame::{PROTOCOLS, Protocol, Verdict};
 pub use crate::text::{Remark, Style};
 pub use crate::walk::guide::{Row, Size};
-pub use decode::{Detail, Options, Report, Summary, Telegram, Verdict, decode};
+pub use decode::{Detail, Options, Report, Settings, Summary, Telegram, decode};
