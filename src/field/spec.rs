@@ -79,29 +79,46 @@ pub enum Order {
     Little,
     /// The 16-bit words swapped, each with its high byte first (CDAB).
     LowWordFirst,
+    /// The high word first, the bytes of each word swapped (BADC).
+    BytesSwapped,
 }
 
 impl Order {
+    /// All of them, the usual one first.
+    pub const ALL: [Self; 4] = [Self::Big, Self::LowWordFirst, Self::BytesSwapped, Self::Little];
+
+    /// Letters and words for it.
+    pub const fn name(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Big => ("ABCD", "big-endian"),
+            Self::LowWordFirst => ("CDAB", "word-swapped"),
+            Self::BytesSwapped => ("BADC", "byte-swapped"),
+            Self::Little => ("DCBA", "little-endian"),
+        }
+    }
+
     /// The number that `bytes` hold.
     pub fn number(self, bytes: &[u8]) -> u64 {
-        let fold = |number: u64, byte: &u8| number << 8 | u64::from(*byte);
-        match self {
-            Self::Big => bytes.iter().fold(0, fold),
-            Self::Little => bytes.iter().rev().fold(0, fold),
-            Self::LowWordFirst => bytes.chunks(2).rev().flatten().fold(0, fold),
-        }
+        let mut bytes = bytes.to_vec();
+        self.arrange(&mut bytes);
+        bytes.iter().fold(0, |number, byte| number << 8 | u64::from(*byte))
     }
 
     /// The `width` bytes of `number`.
     pub fn bytes(self, number: u64, width: usize) -> Vec<u8> {
         let mut bytes = number.to_be_bytes()[8 - width..].to_vec();
-        if self != Self::Big {
+        self.arrange(&mut bytes);
+        bytes
+    }
+
+    /// From big-endian to this order, which is the same way as back.
+    fn arrange(self, bytes: &mut [u8]) {
+        if matches!(self, Self::Little | Self::LowWordFirst) {
             bytes.reverse();
         }
-        if self == Self::LowWordFirst {
+        if matches!(self, Self::BytesSwapped | Self::LowWordFirst) {
             bytes.chunks_mut(2).for_each(<[u8]>::reverse);
         }
-        bytes
     }
 }
 
@@ -247,5 +264,20 @@ impl Spec {
 
     pub fn allows(&self, value: u64) -> bool {
         self.limits.is_none_or(|(from, to)| (from..=to).contains(&value))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn orders_are_what_their_letters_say() {
+        for order in Order::ALL {
+            let letters = order.name().0;
+            assert_eq!(order.bytes(0x4142_4344, 4), letters.as_bytes());
+            assert_eq!(order.number(letters.as_bytes()), 0x4142_4344);
+            assert_eq!(order.number(&order.bytes(0x0102_0304_0506_0708, 8)), 0x0102_0304_0506_0708);
+        }
     }
 }

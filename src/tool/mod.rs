@@ -4,6 +4,7 @@ mod decode;
 pub mod examples;
 #[cfg(feature = "json")]
 pub mod json;
+mod views;
 
 pub use crate::device::{PROFILES, Profile};
 pub use crate::dialogue::Certainty;
@@ -11,3 +12,4 @@ pub use crate::frame::{PROTOCOLS, Protocol, Verdict};
 pub use crate::text::{Remark, Style};
 pub use crate::walk::guide::{Row, Size};
 pub use decode::{Detail, Options, Report, Settings, Summary, Telegram, decode};
+pub use views::{Kind, View, views};

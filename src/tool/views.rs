@@ -1,0 +1,114 @@
+//! Registers seen in every usual way: as numbers of 16, 32 and 64 bits, floats, bits, characters.
+
+use crate::field::{Format, Order, escaped, hex_value, number_text};
+
+/// One way to see one or several registers.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct View {
+    pub kind: Kind,
+    /// How many bits it takes: 16 for each register.
+    pub bits: usize,
+    /// In which order the registers' bytes are taken; for one register the order of the wire.
+    pub order: Order,
+    pub text: String,
+}
+
+/// What a view takes the bits for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    Unsigned,
+    Signed,
+    Hex,
+    Bits,
+    Characters,
+    Float,
+}
+
+impl Kind {
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Unsigned => "unsigned",
+            Self::Signed => "signed",
+            Self::Hex => "hex",
+            Self::Bits => "bits",
+            Self::Characters => "characters",
+            Self::Float => "float",
+        }
+    }
+}
+
+/// The register at the beginning of `bytes` in every view, and together with those behind it as
+/// far as there are some: two make 32 bits, four make 64.
+pub fn views(bytes: &[u8]) -> Vec<View> {
+    let mut views = Vec::new();
+    for width in [2, 4, 8] {
+        let Some(bytes) = bytes.get(..width) else { break };
+        let orders: &[Order] = if width == 2 { &[Order::Big] } else { &Order::ALL };
+        let kinds: &[Kind] = match width {
+            2 => &[Kind::Unsigned, Kind::Signed, Kind::Hex, Kind::Bits, Kind::Characters],
+            _ => &[Kind::Unsigned, Kind::Signed, Kind::Float],
+        };
+        for kind in kinds {
+            for order in orders {
+                let text = text(*kind, order.number(bytes), bytes);
+                views.push(View { kind: *kind, bits: 8 * width, order: *order, text });
+            }
+        }
+    }
+    views
+}
+
+fn text(kind: Kind, raw: u64, bytes: &[u8]) -> String {
+    let width = bytes.len();
+    match kind {
+        Kind::Unsigned => raw.to_string(),
+        Kind::Signed => number_text(raw, width, Format::Signed),
+        Kind::Float => number_text(raw, width, Format::Float),
+        Kind::Hex => hex_value(raw, width),
+        Kind::Characters => escaped(bytes),
+        Kind::Bits => {
+            let nibbles: Vec<String> =
+                (0..2 * width).rev().map(|at| format!("{:04b}", raw >> (4 * at) & 15)).collect();
+            nibbles.join(" ")
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn seen(bytes: &[u8], kind: Kind, bits: usize, order: Order) -> Option<String> {
+        let found = views(bytes).into_iter().find(|v| (v.kind, v.bits, v.order) == (kind, bits, order));
+        found.map(|view| view.text)
+    }
+
+    #[test]
+    fn one_register() {
+        let of = |kind| seen(&[0xFF, 0x41], kind, 16, Order::Big).unwrap();
+        assert_eq!(of(Kind::Unsigned), "65345");
+        assert_eq!(of(Kind::Signed), "\u{2212}191");
+        assert_eq!(of(Kind::Hex), "FF41h");
+        assert_eq!(of(Kind::Bits), "1111 1111 0100 0001");
+        assert_eq!(of(Kind::Characters), "\\xFFA");
+    }
+
+    #[test]
+    fn a_float_in_every_order() {
+        for order in Order::ALL {
+            let bytes = order.bytes(0x42F6_E979, 4);
+            assert_eq!(seen(&bytes, Kind::Float, 32, order).unwrap(), "123.456");
+            let bytes = order.bytes(0x405E_DD2F_1A9F_BE77, 8);
+            assert_eq!(seen(&bytes, Kind::Float, 64, order).unwrap(), "123.456");
+            let bytes = order.bytes((-5_i64) as u64, 8);
+            assert_eq!(seen(&bytes, Kind::Signed, 64, order).unwrap(), "\u{2212}5");
+        }
+    }
+
+    #[test]
+    fn what_is_not_there_is_not_shown() {
+        assert_eq!(views(&[0]), []);
+        assert!(views(&[0; 2]).iter().all(|view| view.bits == 16));
+        assert!(views(&[0; 6]).iter().all(|view| view.bits < 64));
+    }
+}
