@@ -1,0 +1,690 @@
+//! The table of the Memograph M RSG45: every telegram that its manual prints (as corrected by its
+//! own checks), the limits of each command, and what holds for all of them.
+
+use std::collections::BTreeSet;
+
+use buslens::device::{Access, Area, Content, PROFILES, Profile};
+use buslens::field::{Bits, Field, Name, Numbering, Value, leaves, problems};
+use buslens::walk::{self, Deviations, Telegram, Walk, Walker, form, guide, read};
+use proptest::prelude::*;
+
+/// Section, first register, the registers' bytes, and what they say.
+const WRITTEN: &[(&str, u16, &str, &[&str])] = &[
+    (
+        "2.6.1",
+        215,
+        "00 80 42 F6 E9 79",
+        &["Universal channel 6", "Status 0080h (good)", "Value 123.456 (42F6E979h)"],
+    ),
+    (
+        "2.6.1",
+        5225,
+        "00 80 40 5E DD 2F 1A 9F BE 77",
+        &["Universal channel 6", "Status 0080h (good)", "Value 123.456 (405EDD2F1A9FBE77h)"],
+    ),
+    (
+        "2.6.2",
+        1240,
+        "00 08 00 00",
+        &["Digital inputs 1 to 16 0008h (input 4)", "Digital inputs 17 to 20 0000h (nothing set)"],
+    ),
+    ("2.6.2", 1203, "00 01", &["Digital input 4", "Digital input 1 (on)"]),
+    ("2.6.10", 3152, "06 01", &["Relay 6", "State 1 (active)"]),
+    ("2.6.11", 3216, "01 2A", &["Function 1 (open editing)", "Filler 2Ah"]),
+    ("2.6.11", 3216, "03 01 39 30 2E 35", &["Function 3 (change limit)", "Limit 1", "New values “90.5”"]),
+    (
+        "2.6.11",
+        3216,
+        "03 03 35 2E 37 3B 31 30",
+        &["Function 3 (change limit)", "Limit 3", "New values “5.7;10”"],
+    ),
+    (
+        "2.6.11",
+        3216,
+        "05 01 52 65 61 73 6F 6E 20 77 68 79 21 20",
+        &["Function 5 (give reason)", "Second byte 1", "Reason “Reason why! ”"],
+    ),
+    ("2.6.11", 3216, "02 2A", &["Function 2 (accept changes)", "Filler 2Ah"]),
+    ("2.6.11", 3216, "04 01", &["Function 4 (read limits back)", "First limit 1"]),
+    ("2.6.12", 3024, "41 42 43 44 45 20", &["Text “ABCDE ”"]),
+    ("2.6.13", 3088, "01 02", &["Function 1 (start batch)", "Batch 2"]),
+    (
+        "2.6.13",
+        3088,
+        "02 02 49 44 53 50 53 3B 52 65 6D 6F 74 65 58 20",
+        &["Function 2 (stop batch)", "Batch 2", "User “IDSPS;RemoteX ”"],
+    ),
+    (
+        "2.6.13",
+        3088,
+        "03 02 49 64 65 6E 74 69 66 69 65 72",
+        &["Function 3 (set batch identifier)", "Batch 2", "Batch identifier “Identifier”"],
+    ),
+    ("2.6.13", 3088, "04 02 4E 61 6D 65", &["Function 4 (set batch name)", "Batch 2", "Batch name “Name”"]),
+    (
+        "2.6.13",
+        3088,
+        "05 02 4E 75 6D 20",
+        &["Function 5 (set batch number)", "Batch 2", "Batch number “Num ”"],
+    ),
+    (
+        "2.6.13",
+        3088,
+        "06 02 31 32 2E 33 34 35",
+        &["Function 6 (set preset counter)", "Batch 2", "Preset counter “12.345”"],
+    ),
+];
+
+const READ: &[(&str, u16, &str, &[&str])] = &[
+    (
+        "2.6.3",
+        200,
+        "00 80 42 A4 F1 DE",
+        &["Universal channel 1", "Status 0080h (good)", "Value 82.4724 (42A4F1DEh)"],
+    ),
+    (
+        "2.6.3",
+        5200,
+        "00 80 40 54 9E 3B C0 00 00 00",
+        &["Universal channel 1", "Status 0080h (good)", "Value 82.47239685058594 (40549E3BC0000000h)"],
+    ),
+    (
+        "2.6.4",
+        1500,
+        "00 80 46 40 E6 B7",
+        &["Maths channel 1", "Status 0080h (good)", "Value 12345.679 (4640E6B7h)"],
+    ),
+    (
+        "2.6.4",
+        6500,
+        "00 80 40 C8 1C D6 E6 31 F8 A1",
+        &["Maths channel 1", "Status 0080h (good)", "Value 12345.6789 (40C81CD6E631F8A1h)"],
+    ),
+    ("2.6.4", 1800, "00 03", &["Maths channels 1 to 12 0003h (maths 1, maths 2)"]),
+    (
+        "2.6.5",
+        1240,
+        "00 08 00 00",
+        &["Digital inputs 1 to 16 0008h (input 4)", "Digital inputs 17 to 20 0000h (nothing set)"],
+    ),
+    ("2.6.5", 1205, "00 01", &["Digital input 6", "Digital input 1 (on)"]),
+    (
+        "2.6.6",
+        1315,
+        "00 80 40 C9 99 9A",
+        &["Digital input total 6", "Status 0080h (good)", "Value 6.3 (40C9999Ah)"],
+    ),
+    (
+        "2.6.6",
+        6325,
+        "00 80 40 19 33 33 39 80 00 00",
+        &["Digital input total 6", "Status 0080h (good)", "Value 6.3000000938773155 (4019333339800000h)"],
+    ),
+    (
+        "2.6.7",
+        800,
+        "00 80 46 CF 7A F9",
+        &["Universal channel total 1", "Status 0080h (good)", "Value 26557.486 (46CF7AF9h)"],
+    ),
+    (
+        "2.6.7",
+        5800,
+        "00 80 40 E0 32 CB C0 E1 99 A9",
+        &["Universal channel total 1", "Status 0080h (good)", "Value 33174.367295074575 (40E032CBC0E199A9h)"],
+    ),
+    (
+        "2.6.8",
+        1700,
+        "00 80 4B 29 85 F4",
+        &["Maths channel total 1", "Status 0080h (good)", "Value 11109876 (4B2985F4h)"],
+    ),
+    (
+        "2.6.8",
+        6700,
+        "00 80 41 68 5F 26 35 2A FC 7E",
+        &["Maths channel total 1", "Status 0080h (good)", "Value 12777777.66149735 (41685F26352AFC7Eh)"],
+    ),
+    ("2.6.9", 3152, "00 10", &["Active relays 0010h (relay 5)"]),
+    (
+        "2.6.9",
+        3152,
+        "0E 07",
+        &["Active relays 0E07h (relay 1, relay 2, relay 3, relay 10, relay 11, relay 12)"],
+    ),
+    (
+        "2.6.11",
+        3216,
+        "00 01",
+        &["Limit 0 (none, a status follows)", "Communication status 1 (wrong function or limit number)"],
+    ),
+    (
+        "2.6.11",
+        3216,
+        "00 01 00 00 00 00 00 00 00 00 00 00 00 00 00 00",
+        &[
+            "Limit 0 (none, a status follows)",
+            "Communication status 1 (wrong function or limit number)",
+            "Without meaning",
+        ],
+    ),
+    (
+        "2.6.11",
+        3216,
+        "01 10 C9 74 23 F0 00 00 00 00 00 04 42 F6 E6 66",
+        &[
+            "Limit 1",
+            "Limit type 16 (in-band)",
+            "Value −999999 (C97423F0h)",
+            "Span 0 s",
+            "Delay 4 s",
+            "Value 2 123.45 (42F6E666h)",
+        ],
+    ),
+    (
+        "2.6.13",
+        3088,
+        "00 00 00 01 00 00",
+        &[
+            "Communication status 0 (ok)",
+            "Batch 1 0 (stopped)",
+            "Batch 2 1 (running)",
+            "Batch 3 0 (stopped)",
+            "Batch 4 0 (stopped)",
+        ],
+    ),
+    (
+        "2.6.14",
+        200,
+        "02 80 40 F0 00 00",
+        &["Universal channel 1", "Status 0280h (good, limit 2 violated)", "Value 7.5 (40F00000h)"],
+    ),
+    (
+        "2.6.14",
+        5200,
+        "00 80 40 1E 00 00 00 00 00 00",
+        &["Universal channel 1", "Status 0080h (good)", "Value 7.5 (401E000000000000h)"],
+    ),
+    // Registers that the manual lists without an example.
+    ("3", 4078, "40 F0 00 00", &["Universal channel 40", "Universal channel 7.5 (40F00000h)"]),
+    ("3", 8404, "40 1E 00 00 00 00 00 00", &["Maths channel 2", "Maths channel 7.5 (401E000000000000h)"]),
+    (
+        "3",
+        6839,
+        "03 07",
+        &[
+            "Universal channel status 40",
+            "Universal channel status 0307h (sensor or input error, limit 1 violated, limit 2 violated)",
+        ],
+    ),
+    ("3", 6911, "00 99", &["Maths channel status 12", "Maths channel status 0099h (float status 153)"]),
+];
+
+#[test]
+fn every_telegram_of_the_manual_reads_as_it_says() {
+    for (access, telegrams) in [(Access::Write, WRITTEN), (Access::Read, READ)] {
+        for (section, register, bytes, expected) in telegrams {
+            let (said, codes) = say(access, *register, &hex(bytes));
+            assert_eq!(said, *expected, "{section}: {bytes}");
+            assert_eq!(codes, [""; 0], "{section}: {bytes}");
+        }
+    }
+}
+
+#[test]
+fn telegrams_are_built_in_the_words_of_the_device() {
+    for (key, entries, bytes) in [
+        ("relay", &[("relay", "6"), ("state", "active")][..], "06 01"),
+        ("event_text", &[("text", "ABCDE")], "41 42 43 44 45 20"),
+        ("batch", &[("function", "start batch"), ("batch", "2")], "01 02"),
+        (
+            "batch",
+            &[("function", "stop batch"), ("batch", "2"), ("user", "IDSPS;RemoteX")],
+            "02 02 49 44 53 50 53 3B 52 65 6D 6F 74 65 58 20",
+        ),
+        (
+            "batch",
+            &[("function", "set preset counter"), ("batch", "2"), ("preset", "12.345")],
+            "06 02 31 32 2E 33 34 35",
+        ),
+        ("limit", &[("function", "open editing")], "01 2A"),
+        ("limit", &[("function", "accept changes")], "02 2A"),
+        (
+            "limit",
+            &[("function", "change limit"), ("limit", "3"), ("new_values", "5.7;10")],
+            "03 03 35 2E 37 3B 31 30",
+        ),
+        (
+            "limit",
+            &[("function", "give reason"), ("reason", "Reason why!")],
+            "05 01 52 65 61 73 6F 6E 20 77 68 79 21 20",
+        ),
+        ("limit", &[("function", "read limits back"), ("first_limit", "off")], "04 FF"),
+    ] {
+        assert_eq!(build(key, entries), hex(bytes), "{key}: {entries:?}");
+    }
+}
+
+#[test]
+fn texts_keep_their_limits() {
+    let batch =
+        |function, key, text: &str| codes("batch", &build("batch", &[("function", function), (key, text)]));
+    let change =
+        |text| codes("limit", &build("limit", &[("function", "change limit"), ("new_values", text)]));
+    let long = "x".repeat(41);
+
+    for (key, function) in
+        [("identifier", "set batch identifier"), ("name", "set batch name"), ("number", "set batch number")]
+    {
+        assert_eq!(batch(function, key, &long[..30]), [""; 0]);
+        assert_eq!(batch(function, key, &long[..31]), ["text-too-long"]);
+    }
+    for (text, found) in [
+        ("", &[][..]),
+        ("12345678;12345678901234567890", &[]),
+        (";", &[]),
+        ("IDSPS", &["separator-missing"]),
+        ("123456789;x", &["text-too-long"]),
+        ("x;123456789012345678901", &["text-too-long"]),
+        ("123456789;123456789012345678901", &["text-too-long"; 3]),
+        ("Ü;x", &["not-ascii"]),
+    ] {
+        assert_eq!(batch("start batch", "user", text), found, "{text}");
+        assert_eq!(batch("stop batch", "user", text), found, "{text}");
+    }
+    for (text, found) in [
+        ("1.23E-2", &[][..]),
+        ("+5", &[]),
+        ("12345678", &[]),
+        ("123456789", &["text-too-long"]),
+        ("0", &["out-of-range"]),
+        ("-1", &["out-of-range"]),
+        ("1,5", &["not-a-number"]),
+        ("inf", &["not-a-number"]),
+        ("1e99", &["not-a-number"]),
+        ("", &["data-missing"]),
+        (" ", &["data-missing"]),
+    ] {
+        assert_eq!(batch("set preset counter", "preset", text), found, "{text}");
+    }
+    for (text, found) in [
+        ("5.22;;60", &[][..]),
+        ("5.34", &[]),
+        (";;10", &[]),
+        ("20;;;50", &[]),
+        ("-1e6;60;99999;-0.5", &[]),
+        ("1;;;2;", &[]),
+        ("x", &["not-a-number"]),
+        ("1;1.5", &["not-a-number"]),
+        ("1;61", &["out-of-range"]),
+        ("1;;100000", &["out-of-range"]),
+        ("1;;99999999999", &["out-of-range"]),
+        ("1;;;nan", &["not-a-number"]),
+        ("x;x;x;x;x", &["not-a-number", "not-a-number", "not-a-number", "not-a-number", "too-many-values"]),
+        ("", &["data-missing"]),
+        ("0000000000000000000000000000001", &["text-too-long"]),
+    ] {
+        assert_eq!(change(text), found, "{text}");
+    }
+    let reason = |text| codes("limit", &build("limit", &[("function", "give reason"), ("reason", text)]));
+    assert_eq!(reason(&long[..30]), [""; 0]);
+    assert_eq!(reason(&long[..31]), ["text-too-long"]);
+    assert_eq!(reason("tab\\x09"), ["not-ascii"]);
+    let event = |text| codes("event_text", &build("event_text", &[("text", text)]));
+    assert_eq!(event(&long[..40]), [""; 0]);
+    assert_eq!(event(&long[..39]), [""; 0]);
+    assert_eq!(event(&long), ["text-too-long"]);
+}
+
+#[test]
+fn numbers_keep_their_limits() {
+    for (key, bytes, found) in [
+        ("relay", "00 01", &["out-of-range"][..]),
+        ("relay", "0C 00", &[]),
+        ("relay", "0D 02", &["out-of-range"; 2]),
+        ("batch", "01 00", &["out-of-range"]),
+        ("batch", "01 05", &["out-of-range"]),
+        ("batch", "00 01", &["unknown-function"]),
+        ("batch", "07 01 41 42", &["unknown-function"]),
+        ("limit", "00 2A", &["unknown-function"]),
+        ("limit", "06 2A", &["unknown-function"]),
+        ("limit", "01 01", &["count-mismatch"]),
+        ("limit", "02 2A 20 20", &["unexpected-bytes"]),
+        ("limit", "03 00 31 20", &["out-of-range"]),
+        ("limit", "03 3C 31 20", &[]),
+        ("limit", "03 3D 31 20", &["out-of-range"]),
+        ("limit", "04 00", &["out-of-range"]),
+        ("limit", "04 3C", &[]),
+        ("limit", "04 3D", &["out-of-range"]),
+        ("limit", "04 FE", &["out-of-range"]),
+        ("limit", "04 FF", &[]),
+        ("limit", "05 FF 41 42", &[]),
+        ("limit", "05 01 41", &["truncated"]),
+        ("limit", "05", &["truncated"]),
+    ] {
+        assert_eq!(codes(key, &hex(bytes)), found, "{key}: {bytes}");
+    }
+    for (register, bytes, found) in [
+        (3216, "00 00", &[][..]),
+        (3216, "3C 01 00 00 00 00 00 3C 00 01 86 9F 00 00 00 00", &[]),
+        (3216, "3D 01 00 00 00 00 00 3D 00 01 86 A0 00 00 00 00", &["out-of-range"; 3]),
+        (3216, "01 01 00 00 00 00 00 00", &["truncated"]),
+        (3152, "10 00", &["reserved-bits"]),
+        (3088, "00 00", &[]),
+        (3088, "00 00 00 01", &[]),
+        (3088, "00 00 00 01 00 00 00 00", &[]),
+        (3088, "00", &["truncated"]),
+        (1241, "00 10", &["reserved-bits"]),
+        (1200, "00 02", &["out-of-range"]),
+    ] {
+        assert_eq!(say(Access::Read, register, &hex(bytes)).1, found, "{register}: {bytes}");
+    }
+}
+
+#[test]
+fn areas_are_in_order_and_apart() {
+    let mut keys = BTreeSet::new();
+    let mut free = 0;
+    for area in profile().areas {
+        assert!(area.from >= free, "{}", area.spec.key);
+        assert!(keys.insert(area.spec.key), "{} twice", area.spec.key);
+        assert_eq!(area.first.is_some(), area.count > 1, "{}", area.spec.key);
+        free = area.last() + 1;
+        match area.content {
+            Content::Value => assert!([1, 2, 4].contains(&area.stride), "{}", area.spec.key),
+            Content::Parts(parts) => {
+                assert_eq!(parts.iter().map(|part| part.registers).sum::<u16>(), area.stride);
+            }
+            Content::Telegram { read, write } => {
+                assert_eq!(read.is_some(), area.access != Access::Write, "{}", area.spec.key);
+                assert_eq!(write.is_some(), area.access != Access::Read, "{}", area.spec.key);
+            }
+            Content::Mapped => panic!("{}: the device has no mapping", area.spec.key),
+        }
+    }
+}
+
+#[test]
+fn the_last_channels_are_where_the_manual_has_them() {
+    for (key, last) in [
+        ("universal_value", 317),
+        ("universal_total", 917),
+        ("digital_state", 1219),
+        ("digital_total", 1357),
+        ("maths_value", 1533),
+        ("maths_total", 1733),
+        ("universal_value_plain", 4078),
+        ("maths_value_plain", 4222),
+        ("universal_value_double", 5395),
+        ("universal_total_double", 5995),
+        ("digital_total_double", 6395),
+        ("maths_value_double", 6555),
+        ("maths_total_double", 6755),
+        ("universal_status", 6839),
+        ("maths_status", 6911),
+        ("universal_value_plain_double", 8156),
+        ("maths_value_plain_double", 8444),
+    ] {
+        let area = area(key);
+        assert_eq!(area.last() + 1 - area.stride, last, "{key}");
+    }
+}
+
+#[test]
+fn everything_has_words_of_its_own() {
+    let mut specs = Vec::new();
+    for area in profile().areas {
+        specs.push(&area.spec);
+        if let Content::Parts(parts) = area.content {
+            specs.extend(parts.iter().map(|part| part.spec));
+        }
+        for mut telegram in telegrams(area).into_iter().map(|new| new()) {
+            specs.extend(guide::guide(&mut *telegram).iter().flat_map(|row| {
+                [Some(row.spec), row.chosen.map(|(_, chosen)| chosen)].into_iter().flatten()
+            }));
+        }
+    }
+    for spec in specs {
+        assert!(!spec.label.is_empty() && !spec.short.is_empty(), "{}", spec.key);
+        assert!(spec.note.len() + spec.source.len() > 20, "{}", spec.key);
+        assert_names(spec.key, spec.names);
+        for (index, part) in spec.bits.iter().enumerate() {
+            assert_names(part.key, part.names);
+            let before = |other: &Bits| other.from + other.count <= part.from;
+            assert!(spec.bits[..index].iter().all(before), "{}: {}", spec.key, part.key);
+        }
+    }
+}
+
+fn assert_names(key: &str, names: &[Name]) {
+    let mut values = BTreeSet::new();
+    let mut labels = BTreeSet::new();
+    for name in names {
+        assert!(!name.label.is_empty() && labels.insert(name.label), "{key}: {}", name.value);
+        assert!(values.insert(name.value), "{key}: {} twice", name.value);
+    }
+}
+
+#[test]
+fn every_named_function_exists() {
+    for key in ["batch", "limit"] {
+        let shown = form::form(&mut *written(key), &Deviations::default());
+        let names = shown.entries[0].spec.names;
+        assert!(names.len() > 1, "{key}");
+        for name in names {
+            let bytes = build(key, &[("function", name.label)]);
+            assert_eq!(u64::from(bytes[0]), name.value);
+            assert!(!codes(key, &bytes).contains(&"unknown-function"), "{key}: {}", name.label);
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(1000) })]
+
+    #[test]
+    fn any_bytes_tile_and_are_written_again(new in any_telegram(), bytes in any_bytes()) {
+        let mut telegram = new();
+        let reading = read(&mut *telegram, &bytes);
+        assert_tiled(&reading.fields, bytes.len());
+        let deviations = reading.deviations(&mut *telegram);
+        prop_assert_eq!(walk::write(&mut *telegram, &deviations), bytes);
+    }
+
+    #[test]
+    fn a_form_gives_the_same_telegram(new in any_telegram(), bytes in any_bytes()) {
+        let mut telegram = new();
+        let deviations = read(&mut *telegram, &bytes).deviations(&mut *telegram);
+        let shown = form::form(&mut *telegram, &deviations);
+        let mut filled = new();
+        let entered = form::fill(&mut *filled, &shown).expect("a form fills what it was made of");
+        prop_assert_eq!(&form::form(&mut *filled, &entered), &shown);
+        prop_assert_eq!(walk::write(&mut *filled, &entered), bytes);
+    }
+
+    /// Samples of telegrams without text: texts have rules that no sampler knows.
+    #[test]
+    fn a_sample_has_no_problems(new in any_telegram(), seed: u64) {
+        let mut telegram = new();
+        let mut state = seed;
+        walk::sample(&mut *telegram, &mut |most| {
+            state = state.wrapping_mul(0x5851_F42D_4C95_7F2D).wrapping_add(0x1405_7B7E_F767_814F);
+            (state >> 32) % most.saturating_add(1)
+        });
+        let bytes = walk::write(&mut *telegram, &Deviations::default());
+        let mut again = new();
+        let reading = read(&mut *again, &bytes);
+        assert_tiled(&reading.fields, bytes.len());
+        let has_text = leaves(&reading.fields).iter().any(|leaf| matches!(leaf.value, Value::Text(_)));
+        prop_assert!(has_text || problems(&reading.fields).is_empty(), "{:?}", reading.fields);
+        prop_assert!(reading.deviations(&mut *again).is_empty());
+        prop_assert_eq!(walk::write(&mut *again, &Deviations::default()), bytes);
+    }
+
+    #[test]
+    fn what_the_manual_allows_has_no_problems(command in valid_command()) {
+        let (key, function, number_key, number, text_key, text) = command;
+        let number = number.to_string();
+        let bytes = build(key, &[("function", function), (number_key, &number), (text_key, &text)]);
+        prop_assert!(bytes.len().is_multiple_of(2));
+        prop_assert_eq!(codes(key, &bytes), [""; 0]);
+        let said = say(Access::Write, area(key).from, &bytes).0;
+        prop_assert!(text.is_empty() || said[2].contains(&text), "{said:?}");
+    }
+}
+
+type Command = (&'static str, &'static str, &'static str, u8, &'static str, String);
+
+/// Commands with texts as the manual allows them.
+fn valid_command() -> impl Strategy<Value = Command> {
+    const FLOAT: &str = "[+-]?[0-9]{1,3}(\\.[0-9]{1,2})?(e-?[0-9])?";
+    let new_values = format!("({FLOAT})?;([0-5]?[0-9])?;([0-9]{{1,5}})?(;{FLOAT})?");
+    let batch = |function, text_key, texts: &str| {
+        (1..=4u8, proptest::string::string_regex(texts).unwrap())
+            .prop_map(move |(number, text)| ("batch", function, "batch", number, text_key, text))
+    };
+    // No backslash, which forms write as an escape.
+    prop_oneof![
+        batch("start batch", "user", "([!-:<-Z]{1,8};[ -Z]{0,19}[!-Z])?"),
+        batch("stop batch", "user", "([!-:<-Z]{1,8};[ -Z]{0,19}[!-Z])?"),
+        batch("set batch identifier", "identifier", "[ -Z]{0,30}"),
+        batch("set batch name", "name", "[a-z ]{0,30}"),
+        batch("set batch number", "number", "[ -Z]{0,30}"),
+        batch("set preset counter", "preset", "[1-9]{1,2}(\\.[0-9]{1,2})?(E-?[0-9])?"),
+        (1..=60u8, proptest::string::string_regex(&new_values).unwrap()).prop_map(|(number, text)| {
+            // The values together may be longer than the registers.
+            let text = if text.len() > 30 { "1".to_owned() } else { text };
+            ("limit", "change limit", "limit", number, "new_values", text)
+        }),
+        (any::<u8>(), "[ -Z]{0,30}")
+            .prop_map(|(number, text)| { ("limit", "give reason", "second_byte", number, "reason", text) }),
+    ]
+}
+
+fn any_telegram() -> impl Strategy<Value = fn() -> Box<dyn Telegram>> {
+    proptest::sample::select(profile().areas.iter().flat_map(telegrams).collect::<Vec<_>>())
+}
+
+/// Bytes of any length, most of them with a function that exists.
+fn any_bytes() -> impl Strategy<Value = Vec<u8>> {
+    (proptest::collection::vec(any::<u8>(), 0..100), proptest::option::of(0..8u8)).prop_map(
+        |(mut bytes, function)| {
+            if let (Some(first), Some(function)) = (bytes.first_mut(), function) {
+                *first = function;
+            }
+            bytes
+        },
+    )
+}
+
+fn profile() -> &'static Profile {
+    PROFILES.iter().find(|profile| profile.key == "memograph-rsg45").expect("the profile is listed")
+}
+
+fn area(key: &str) -> &'static Area {
+    profile().areas.iter().find(|area| area.spec.key == key).expect(key)
+}
+
+fn telegrams(area: &Area) -> Vec<fn() -> Box<dyn Telegram>> {
+    match area.content {
+        Content::Telegram { read, write } => read.into_iter().chain(write).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// The empty telegram that is written to the area `key`.
+fn written(key: &str) -> Box<dyn Telegram> {
+    match area(key).content {
+        Content::Telegram { write: Some(new), .. } => new(),
+        _ => panic!("{key} is not written as a telegram"),
+    }
+}
+
+/// The codes of what is wrong with `bytes` written to the area `key`.
+fn codes(key: &str, bytes: &[u8]) -> Vec<&'static str> {
+    let fields = read(&mut *written(key), bytes).fields;
+    problems(&fields).iter().map(|problem| problem.code).collect()
+}
+
+/// The bytes of a telegram to the area `key` with these entries of its form, the function first.
+fn build(key: &str, entries: &[(&str, &str)]) -> Vec<u8> {
+    let mut telegram = written(key);
+    for (entry, text) in entries {
+        let mut shown = form::form(&mut *telegram, &Deviations::default());
+        let found = shown.entries.iter_mut().find(|shown| shown.spec.key == *entry).expect(entry);
+        match &mut found.content {
+            form::Content::Choice { raw, .. } => {
+                let named = |name: &&Name| name.label == *text;
+                *raw = found.spec.names.iter().find(named).expect(text).value;
+            }
+            form::Content::Number { text: shown, .. } | form::Content::Text { text: shown } => {
+                *shown = (*text).to_owned();
+            }
+            other => panic!("{entry}: {other:?}"),
+        }
+        form::fill(&mut *telegram, &shown).expect(text);
+    }
+    walk::write(&mut *telegram, &Deviations::default())
+}
+
+/// What the registers from `register` on say by the table, and the codes of what is wrong with them.
+fn say(access: Access, mut register: u16, mut bytes: &[u8]) -> (Vec<String>, Vec<&'static str>) {
+    let mut said = Vec::new();
+    let mut codes = Vec::new();
+    while !bytes.is_empty() {
+        let mut areas = profile().areas.iter();
+        let area = areas.find(|area| (area.from..=area.last()).contains(&register)).expect("an area");
+        assert!([access, Access::ReadWrite].contains(&area.access), "{}", area.spec.key);
+        let mut block: Box<dyn Telegram> = match (area.content, access) {
+            (Content::Telegram { read: Some(new), .. }, Access::Read) => new(),
+            (Content::Telegram { write: Some(new), .. }, Access::Write) => new(),
+            _ => Box::new(Numbers(area)),
+        };
+        let (taken, left) = bytes.split_at(bytes.len().min(2 * usize::from(area.stride)));
+        let fields = read(&mut *block, taken).fields;
+        if let Some(first) = area.first {
+            let number = first + u64::from((register - area.from) / area.stride);
+            said.push(area.spec.numbered(Some(Numbering::At(number))).to_string());
+        }
+        said.extend(leaves(&fields).into_iter().map(text));
+        codes.extend(problems(&fields).iter().map(|problem| problem.code));
+        register += area.stride;
+        bytes = left;
+    }
+    (said, codes)
+}
+
+/// A block of an area of numbers.
+struct Numbers(&'static Area);
+
+impl Telegram for Numbers {
+    fn walk(&mut self, w: &mut dyn Walker) -> Walk {
+        let width = |registers: u16| 2 * usize::from(registers);
+        match self.0.content {
+            Content::Parts(parts) => {
+                parts.iter().try_for_each(|part| w.number(part.spec, width(part.registers), &mut 0))
+            }
+            _ => w.number(&self.0.spec, width(self.0.stride), &mut 0),
+        }
+    }
+}
+
+/// "Status 0080h (good)".
+fn text(field: &Field) -> String {
+    let value = field.value_text();
+    let meaning = field.meaning().map(|meaning| format!(" ({meaning})")).unwrap_or_default();
+    format!("{} {value}{meaning}", field.label()).trim_end().to_owned()
+}
+
+fn hex(text: &str) -> Vec<u8> {
+    text.split(' ').map(|byte| u8::from_str_radix(byte, 16).expect(byte)).collect()
+}
+
+/// Panics unless the leaves cover 0 to `length` without gap or overlap.
+fn assert_tiled(fields: &[Field], length: usize) {
+    let mut position = 0;
+    for leaf in leaves(fields) {
+        assert_eq!(leaf.span.from, position, "{}", leaf.spec.key);
+        position = leaf.span.to;
+    }
+    assert_eq!(position, length);
+}
