@@ -4,6 +4,7 @@
 //! neither function codes nor frames. Every block of registers and every parameter is described
 //! once, and from that description it is read, written, edited and explained.
 
+pub mod keb_f5;
 mod keb_f5_modbus;
 mod keb_f5_profibus;
 mod memograph_rsg45;
