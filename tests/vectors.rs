@@ -168,7 +168,7 @@ fn show(report: &Report, index: usize, detail: &Detail) -> String {
     }
     for block in &detail.device.blocks {
         let note = block.note.as_ref().map(|note| format!("; {note}")).unwrap_or_default();
-        writeln!(text, "device {}{note}", block.registers()).unwrap();
+        writeln!(text, "device {}: {}{note}", block.registers(), block.label()).unwrap();
         show_field(&mut text, &block.field, 0);
     }
     text

@@ -4,11 +4,13 @@
 //! neither function codes nor frames. Every block of registers and every parameter is described
 //! once, and from that description it is read, written, edited and explained.
 
+pub mod keb_f5;
 mod keb_f5_modbus;
 mod keb_f5_profibus;
 mod memograph_rsg45;
 mod read;
 
+pub use keb_f5::ProcessWord;
 pub use read::{Block, Numbers, Process, Registers, Said};
 
 use crate::field::Spec;
@@ -130,8 +132,8 @@ pub struct Settings {
     pub read_mapping: Mapping,
     pub write_mapping: Mapping,
     /// What the words of process data mean, towards the device and from it.
-    pub process_output: Vec<Mapped>,
-    pub process_input: Vec<Mapped>,
+    pub process_output: Vec<ProcessWord>,
+    pub process_input: Vec<ProcessWord>,
 }
 
 /// A list that gives registers their parameters, as an F5 Modbus operator holds it.
@@ -145,14 +147,6 @@ pub struct Mapping {
 /// An entry of a mapping list: parameter address (16 bits), set mask (8), words (8).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Entry(pub u32);
-
-/// A word of process data: which parameter, in which sets. The second word of a 32-bit value has
-/// index 0.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Mapped {
-    pub index: u16,
-    pub sets: u8,
-}
 
 impl Entry {
     pub const fn parameter(self) -> u16 {
@@ -212,12 +206,11 @@ impl Default for Settings {
     /// As the devices come from their makers: the F5's process data are control word and set speed,
     /// status word and actual speed.
     fn default() -> Self {
-        let word = |index| Mapped { index, sets: 1 };
         Self {
             read_mapping: Mapping::default(),
             write_mapping: Mapping::default(),
-            process_output: vec![word(0x2032), word(0x2034)],
-            process_input: vec![word(0x2033), word(0x2035)],
+            process_output: keb_f5::STANDARD_OUTPUT.to_vec(),
+            process_input: keb_f5::STANDARD_INPUT.to_vec(),
         }
     }
 }

@@ -47,6 +47,8 @@ pub struct Block {
     /// The addresses that the telegram has of it.
     pub from: u16,
     pub to: u16,
+    /// The maker's short name for it: `Sy.51`.
+    pub id: &'static str,
     /// What only this telegram's addresses tell: parameter set, mapping entry.
     pub note: Option<Message>,
 }
@@ -78,8 +80,16 @@ impl Said {
 }
 
 impl Block {
+    /// "Status word (Sy.51)", "Universal channel 6".
+    pub fn label(&self) -> Message {
+        match self.id {
+            "" => self.field.label(),
+            id => message!("{label} ({id})", label = self.field.label(), id = id.to_owned()),
+        }
+    }
+
     fn sentence(&self) -> Message {
-        let label = self.field.label();
+        let label = self.label();
         match (self.value(), self.status()) {
             (Some(value), Some(status)) => {
                 message!("{label} = {value}, {status}", label = label, value = value, status = status)
@@ -182,7 +192,7 @@ impl Profile {
         let mut block = match self.named(index, Some(subindex)) {
             Some(parameter) => {
                 let mut block = here.single(&parameter.spec, None, parameter.access);
-                block.note = Some(parameter.note());
+                block.id = parameter.id;
                 if let Some(length) = parameter.length.filter(|length| value.is_some() && width < *length) {
                     block.field.problems.push(Problem::warning(
                         "value-too-short",
@@ -244,7 +254,7 @@ impl Profile {
     fn block(&'static self, here: &Here<'_>, mapping: &Mapping) -> Block {
         if let Some(parameter) = self.named(here.address, None) {
             let mut block = here.single(&parameter.spec, None, parameter.access);
-            block.note = Some(parameter.note());
+            block.id = parameter.id;
             return block;
         }
         let Some(area) = self.areas.iter().find(|area| (area.from..=area.last()).contains(&here.address))
@@ -277,8 +287,8 @@ impl Profile {
             Some(parameter) => &parameter.spec,
             None => self.areas.iter().find(|area| area.from == 0x2000).map_or(&area.spec, |area| &area.spec),
         };
-        let named = self.named(address, None).is_some();
-        let number = (!named).then_some(Numbering::At(entry.parameter().into()));
+        let named = self.named(address, None);
+        let number = named.is_none().then_some(Numbering::At(entry.parameter().into()));
         let mut block = if words == 2 && here.left < 2 {
             let mut block = here.cut(spec, 1);
             block.field.problems.push(Problem::error(
@@ -293,6 +303,7 @@ impl Profile {
         } else {
             here.numbers(spec, number, area.access, &[(spec, words)], words)
         };
+        block.id = named.map_or("", |parameter| parameter.id);
         block.note = Some(message!(
             "mapping entry {n}: parameter {parameter}, {sets}",
             n = n,
@@ -310,17 +321,6 @@ impl Profile {
             ));
         }
         block
-    }
-}
-
-impl Parameter {
-    /// "FB.00: what it is for".
-    fn note(&self) -> Message {
-        match (self.id, self.spec.note) {
-            ("", note) => Message::term(note),
-            (id, "") => message!("{id}", id = id.to_owned()),
-            (id, note) => message!("{id}: {note}", id = id.to_owned(), note = Argument::Term(note)),
-        }
     }
 }
 
@@ -355,7 +355,7 @@ impl Here<'_> {
 
     fn of(&self, field: Field, count: usize) -> Block {
         let to = self.address.saturating_add(count.saturating_sub(1) as u16);
-        Block { field, from: self.address, to, note: None }
+        Block { field, from: self.address, to, id: "", note: None }
     }
 
     /// A number of one register.

@@ -1,4 +1,4 @@
-use super::Name;
+use super::{Format, Name};
 
 /// Some bits of a number that say something of their own.
 ///
@@ -16,6 +16,8 @@ pub struct Bits {
     /// The lowest bit, counted from 0.
     pub from: u32,
     pub count: u32,
+    /// How a part that is a number is shown.
+    pub format: Format,
     /// What single values are called.
     pub names: &'static [Name],
     /// One or two sentences for a person who meets them for the first time.
@@ -32,12 +34,17 @@ impl Bits {
 
     /// `count` bits from bit `from` that are a number, or have named values.
     pub const fn part(from: u32, count: u32, key: &'static str, label: &'static str) -> Self {
-        Self { key, label, from, count, names: &[], note: "", reserved: false }
+        Self { key, label, from, count, format: Format::Decimal, names: &[], note: "", reserved: false }
     }
 
     /// Bits that must be 0.
     pub const fn reserved(from: u32, count: u32) -> Self {
         Self { reserved: true, ..Self::part(from, count, "reserved", "reserved") }
+    }
+
+    pub const fn format(mut self, format: Format) -> Self {
+        self.format = format;
+        self
     }
 
     pub const fn names(mut self, names: &'static [Name]) -> Self {

@@ -160,7 +160,11 @@ fn bits(raw: u64, spec: &'static Spec) -> Message {
             (None, 1) if value == 0 || part.reserved => continue,
             (None, 1) => Message::term(part.label),
             (None, _) if part.reserved => continue,
-            (None, _) => message!("{part} {n}", part = Argument::Term(part.label), n = value),
+            (None, count) => message!(
+                "{part} {n}",
+                part = Argument::Term(part.label),
+                n = number_text(value, count.div_ceil(8) as usize, part.format)
+            ),
         };
         said = Some(match said {
             Some(said) => message!("{said}, {next}", said = said, next = next),

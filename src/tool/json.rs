@@ -185,7 +185,7 @@ fn raw(value: u32, coil: bool) -> RawValue {
 fn known(block: &Block) -> Known {
     let text = |message: Message| message.to_string();
     Known {
-        name: text(block.field.label()),
+        name: text(block.label()),
         value: block.value().map(text),
         unit: block.field.spec.unit,
         status: block.status().map(text),
