@@ -20,6 +20,7 @@ pub static PROFILE: Profile = Profile {
     key: "keb-f5-modbus",
     label: "KEB COMBIVERT F5 on Modbus",
     source: "KEB COMBIVERT F5 Modbus operator",
+    hex_addresses: true,
     areas: AREAS,
     parameters: PARAMETERS,
     most_registers: None,

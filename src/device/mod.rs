@@ -29,6 +29,8 @@ pub struct Profile {
     pub label: &'static str,
     /// The manual.
     pub source: &'static str,
+    /// The manual writes addresses in hex.
+    pub hex_addresses: bool,
     /// What stands at which address, in the order of the addresses and without overlap.
     pub areas: &'static [Area],
     /// Addresses with a name of their own, each within one of the areas.

@@ -47,6 +47,8 @@ pub struct Block {
     /// The addresses that the telegram has of it.
     pub from: u16,
     pub to: u16,
+    /// The manual writes them in hex.
+    hex: bool,
     /// The maker's short name for it: `Sy.51`.
     pub id: &'static str,
     /// What only this telegram's addresses tell: parameter set, mapping entry.
@@ -102,7 +104,7 @@ impl Block {
 
     /// Its addresses: `215 to 217`, in hex where the manual writes them so.
     pub fn registers(&self) -> String {
-        let shown = |address: u16| match self.field.spec.hex_numbers {
+        let shown = |address: u16| match self.hex {
             true => hex_value(address.into(), 2),
             false => address.to_string(),
         };
@@ -167,7 +169,7 @@ impl Profile {
         let mut done = 0;
         while done < registers.count {
             let Ok(address) = u16::try_from(usize::from(registers.start) + done) else { break };
-            let here = Here { registers, address, left: registers.count - done };
+            let here = Here { registers, address, left: registers.count - done, hex: self.hex_addresses };
             let block = self.block(&here, mapping);
             done += usize::from(block.to - block.from) + 1;
             said.blocks.push(block);
@@ -188,7 +190,7 @@ impl Profile {
         let width = value.map_or(0, |(bytes, _)| bytes.len());
         let registers =
             Registers { start: index, count: 1, width, access, values: big_endian.as_deref(), span };
-        let here = Here { registers: &registers, address: index, left: 1 };
+        let here = Here { registers: &registers, address: index, left: 1, hex: self.hex_addresses };
         let mut block = match self.named(index, Some(subindex)) {
             Some(parameter) => {
                 let mut block = here.single(&parameter.spec, None, parameter.access);
@@ -341,6 +343,7 @@ struct Here<'a> {
     address: u16,
     /// How many registers there are from here on.
     left: usize,
+    hex: bool,
 }
 
 impl Here<'_> {
@@ -355,7 +358,7 @@ impl Here<'_> {
 
     fn of(&self, field: Field, count: usize) -> Block {
         let to = self.address.saturating_add(count.saturating_sub(1) as u16);
-        Block { field, from: self.address, to, id: "", note: None }
+        Block { field, from: self.address, to, hex: self.hex, id: "", note: None }
     }
 
     /// A number of one register.

@@ -9,7 +9,7 @@ pub mod modbus_serial;
 pub mod modbus_tcp;
 
 use crate::field::{Direction, Message};
-use crate::modbus::{Dialect, Pdu, STANDARD};
+use crate::modbus::{Dialect, Pdu, STANDARD, Server};
 use crate::walk::Telegram;
 
 /// Every protocol. Where bytes fit several equally well, the first one counts.
@@ -93,6 +93,6 @@ pub trait Frame: Telegram {
 
 /// What a frame carries.
 pub enum Content<'a> {
-    /// A unit's PDU; a bare PDU does not say which unit.
-    Modbus { unit: Option<u8>, pdu: &'a Pdu },
+    /// A PDU for a server or from it.
+    Modbus { server: Server, pdu: &'a Pdu },
 }

@@ -106,11 +106,11 @@ impl Telegram for Ascii {
 
 impl Frame for Ascii {
     fn content(&self) -> Content<'_> {
-        Content::Modbus { unit: Some(self.unit), pdu: &self.pdu }
+        Content::Modbus { server: serial::server(self.unit), pdu: &self.pdu }
     }
 
     fn meaning(&self) -> Message {
-        serial::meaning(self.unit, &self.pdu)
+        self.pdu.body.meaning(serial::server(self.unit))
     }
 
     fn answer(&mut self, request: &Content<'_>) {

@@ -44,7 +44,7 @@ impl Telegram for Bare {
 
 impl Frame for Bare {
     fn content(&self) -> Content<'_> {
-        Content::Modbus { unit: None, pdu: &self.pdu }
+        Content::Modbus { server: Server::Unsaid, pdu: &self.pdu }
     }
 
     fn meaning(&self) -> Message {

@@ -4,7 +4,7 @@
 //! Source: Modbus over serial line V1.02, section 2.2.
 
 use super::{Content, Fit};
-use crate::field::{Direction, Message, Name, Role, Severity, Spec};
+use crate::field::{Direction, Name, Role, Severity, Spec};
 use crate::message;
 use crate::modbus::{Dialect, EXCEPTION, KINDS, Pdu, Server};
 use crate::walk::{Telegram, Walk, Walker};
@@ -88,12 +88,12 @@ pub fn answer(pdu: &mut Pdu, request: &Content<'_>) {
     }
 }
 
-/// The telegram in one sentence.
-pub fn meaning(unit: u8, pdu: &Pdu) -> Message {
-    pdu.body.meaning(match unit {
+/// Whom a frame with this address is for or from.
+pub fn server(unit: u8) -> Server {
+    match unit {
         BROADCAST => Server::All,
         unit => Server::Unit(unit),
-    })
+    }
 }
 
 /// What the PDU of a frame without a right check says for the frame's protocol.

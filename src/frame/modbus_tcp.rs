@@ -140,7 +140,7 @@ impl Telegram for Tcp {
 
 impl Frame for Tcp {
     fn content(&self) -> Content<'_> {
-        Content::Modbus { unit: Some(self.unit), pdu: &self.pdu }
+        Content::Modbus { server: Server::Unit(self.unit), pdu: &self.pdu }
     }
 
     fn meaning(&self) -> Message {

@@ -152,6 +152,15 @@ pub enum Server {
 }
 
 impl Server {
+    /// Its number on the line.
+    pub const fn unit(self) -> Option<u8> {
+        match self {
+            Self::Unit(unit) => Some(unit),
+            Self::Unsaid => None,
+            Self::All => Some(0),
+        }
+    }
+
     /// "unit 5".
     pub fn name(self) -> Message {
         match self {

@@ -3,7 +3,7 @@ use crate::dialogue::{self, Candidate, Certainty, Choice, Guess, Pairing};
 use crate::field::{self, Check, Direction, Field, Message, Problem, Span, Value, hex_value};
 use crate::frame::{self, Content, Frame, Protocol, Speaker, Verdict, modbus_ascii, modbus_serial};
 use crate::message;
-use crate::modbus::{Access, EXCEPTION, Pdu};
+use crate::modbus::{Access, EXCEPTION, Pdu, Server};
 use crate::text::{self, Line, Style};
 use crate::walk::{self, guide};
 
@@ -213,9 +213,9 @@ impl Report {
             fields: reading.fields,
         };
         match frame.content() {
-            Content::Modbus { unit, pdu } => {
-                detail.unit = unit.filter(|_| !bytes.is_empty());
-                detail.tell_pdu(pdu, has_function(&detail.fields));
+            Content::Modbus { server, pdu } => {
+                detail.unit = server.unit().filter(|_| !bytes.is_empty());
+                detail.tell_pdu(server, pdu);
             }
         }
         Some(detail)
@@ -344,18 +344,33 @@ impl Report {
 }
 
 impl Detail {
-    /// What a PDU says; `function` is whether its function code is there at all.
-    fn tell_pdu(&mut self, pdu: &Pdu, function: bool) {
+    /// What a PDU says.
+    fn tell_pdu(&mut self, server: Server, pdu: &Pdu) {
         let spec = &pdu.kind.spec;
         let access = pdu.body.access();
+        let write = access.is_some_and(|access| access.write);
         if let Some(label) = missing(&self.fields) {
             self.said = message!(
                 "{kind}, cut off: {label} is incomplete",
                 kind = field::Argument::Term(spec.label),
                 label = label
             );
+        } else if let Some(things) = self.device.sentence() {
+            let who = server.name();
+            self.said = match (pdu.direction, write) {
+                (Direction::Request, false) => message!("ask {who} for {things}", who = who, things = things),
+                (Direction::Request, true) => {
+                    message!("write to {who}: {things}", who = who, things = things)
+                }
+                (Direction::Response, false) => {
+                    message!("{who} answers: {things}", who = who, things = things)
+                }
+                (Direction::Response, true) => {
+                    message!("{who} confirms what it wrote: {things}", who = who, things = things)
+                }
+            };
         }
-        let function = function.then_some(pdu.function);
+        let function = has_function(&self.fields).then_some(pdu.function);
         self.kind = kind_name(spec.label, function);
         self.note = spec.note;
         self.source = spec.source;
@@ -364,9 +379,6 @@ impl Detail {
         self.start = access.and_then(|access| access.start);
         self.count = access.map(|access| access.count);
         self.values = access.map_or(Vec::new(), |access| access.values.to_vec());
-        if let Some(device) = self.device.sentence() {
-            self.said = message!("{said} ({device})", said = self.said.clone(), device = device);
-        }
     }
 }
 

@@ -53,12 +53,21 @@ pub enum RawValue {
     Coil(bool),
 }
 
+/// A value as a number, where it is one, or as text.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+pub enum Shown {
+    Whole(i64),
+    Number(f64),
+    Text(String),
+}
+
 /// A block of registers, or a parameter.
 #[derive(Debug, Serialize)]
 pub struct Known {
     pub name: String,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub value: Option<String>,
+    pub value: Option<Shown>,
     #[serde(skip_serializing_if = "str::is_empty")]
     pub unit: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -182,11 +191,21 @@ fn raw(value: u32, coil: bool) -> RawValue {
     if coil { RawValue::Coil(value != 0) } else { RawValue::Number(value) }
 }
 
+fn shown(text: String) -> Shown {
+    let plain = text.replace('\u{2212}', "-");
+    let number = || plain.parse::<f64>().ok().filter(|number| number.is_finite());
+    match (plain.parse(), number()) {
+        (Ok(whole), _) => Shown::Whole(whole),
+        (_, Some(number)) => Shown::Number(number),
+        _ => Shown::Text(text),
+    }
+}
+
 fn known(block: &Block) -> Known {
     let text = |message: Message| message.to_string();
     Known {
         name: text(block.label()),
-        value: block.value().map(text),
+        value: block.value().map(|value| shown(text(value))),
         unit: block.field.spec.unit,
         status: block.status().map(text),
         register: block.registers(),
