@@ -92,11 +92,18 @@ impl Block {
 
     fn sentence(&self) -> Message {
         let label = self.label();
+        let numbers = self.leaves().filter(|leaf| leaf.spec.role != Role::Status).count();
         match (self.value(), self.status()) {
-            (Some(value), Some(status)) => {
+            (Some(value), Some(status)) if numbers == 1 => {
                 message!("{label} = {value}, {status}", label = label, value = value, status = status)
             }
-            (Some(value), None) => message!("{label} = {value}", label = label, value = value),
+            (Some(value), None) if numbers == 1 => {
+                message!("{label} = {value}", label = label, value = value)
+            }
+            (Some(value), Some(status)) => {
+                message!("{label}: {value}, {status}", label = label, value = value, status = status)
+            }
+            (Some(value), None) => message!("{label}: {value}", label = label, value = value),
             (None, Some(status)) => message!("{label}: {status}", label = label, status = status),
             (None, None) => label,
         }
@@ -117,20 +124,36 @@ impl Block {
 
     /// The values that are no status, as text.
     pub fn value(&self) -> Option<Message> {
-        let mut said: Option<Message> = None;
-        for leaf in self.leaves().filter(|leaf| leaf.spec.role != Role::Status) {
-            let Some(next) = shown(leaf) else { continue };
-            said = Some(match said {
-                Some(said) => message!("{said}, {next}", said = said, next = next),
-                None => next,
-            });
-        }
-        said
+        self.told(|role| !matches!(role, Role::Status | Role::Unknown))
     }
 
     /// What the block says about the value.
     pub fn status(&self) -> Option<Message> {
-        self.leaves().find(|leaf| leaf.spec.role == Role::Status).and_then(shown)
+        self.told(|role| role == Role::Status)
+    }
+
+    /// The leaves of some roles one behind the other, with their names where there are several.
+    fn told(&self, role: fn(Role) -> bool) -> Option<Message> {
+        let leaves: Vec<(&Field, Message)> = self
+            .leaves()
+            .filter(|leaf| role(leaf.spec.role))
+            .filter_map(|leaf| shown(leaf).map(|value| (leaf, value)))
+            .collect();
+        let several = leaves.len() > 1;
+        let mut told: Option<Message> = None;
+        for (leaf, value) in leaves {
+            let next = match leaf.value {
+                Value::Number { .. } | Value::Text(_) if several => {
+                    message!("{label} {value}", label = leaf.label(), value = value)
+                }
+                _ => value,
+            };
+            told = Some(match told {
+                Some(told) => message!("{told}, {next}", told = told, next = next),
+                None => next,
+            });
+        }
+        told
     }
 
     fn leaves(&self) -> impl Iterator<Item = &Field> {
@@ -375,7 +398,7 @@ impl Here<'_> {
         let whole = [Part { spec, registers: area.stride }];
         let parts: &[Part] = if parts.is_empty() { &whole } else { parts };
         let mut wanted = Vec::new();
-        let (mut at, mut cut) = (0, None);
+        let mut at = 0;
         for part in parts {
             let (from, to) = (
                 at.max(usize::from(inside)),
@@ -385,25 +408,32 @@ impl Here<'_> {
             if from >= to {
                 continue;
             }
-            if to - from < usize::from(part.registers) {
-                cut = Some(part.spec);
-            }
-            wanted.push((part.spec, to - from));
+            wanted.push((part, to - from));
         }
-        let mut block = self.numbers(spec, number, area.access, &wanted, there);
-        if let Some(part) = cut {
-            block.field.problems.push(Problem::warning(
-                "block-cut",
-                block.field.span,
-                message!(
-                    "{label} is cut: {there} of its {stride} registers are here, and {part} is not whole",
-                    label = block.field.label(),
-                    there = there,
-                    stride = area.stride,
-                    part = Argument::Term(part.label)
-                ),
-            ));
+        let widths: Vec<_> = wanted.iter().map(|(part, registers)| (part.spec, *registers)).collect();
+        let mut block = self.numbers(spec, number, area.access, &widths, there);
+        let Some((at, (part, _))) =
+            wanted.iter().enumerate().find(|(_, (part, registers))| *registers < usize::from(part.registers))
+        else {
+            return block;
+        };
+        // A piece of a number is no number.
+        let whole = &mut block.field;
+        let cut = if whole.children.is_empty() { Some(&mut *whole) } else { whole.children.get_mut(at) };
+        if let Some(cut) = cut.filter(|cut| cut.value != Value::Group) {
+            cut.value = Value::Bytes;
         }
+        whole.problems.push(Problem::warning(
+            "block-cut",
+            whole.span,
+            message!(
+                "{label} is cut: {there} of its {stride} registers are here, and {part} is not whole",
+                label = whole.label(),
+                there = there,
+                stride = area.stride,
+                part = Argument::Term(part.spec.label)
+            ),
+        ));
         block
     }
 

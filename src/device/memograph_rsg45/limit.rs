@@ -79,6 +79,7 @@ const fn function(code: u8, spec: Spec, second: Second, text: Option<&'static Te
 const FILLER: Second = Second::Filler(&FILLER_BYTE, 0x2A);
 
 static FILLER_BYTE: Spec = Spec::new("filler", "Filler")
+    .role(Role::Unknown)
     .format(Format::Hex)
     .note("Always 2Ah. It only fills the register.")
     .source(SOURCE);

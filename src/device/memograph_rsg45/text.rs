@@ -1,7 +1,7 @@
 //! Text as the Memograph takes it: ASCII, two characters in a register, padded with a space to
 //! whole registers. The device takes no notice of that space.
 
-use crate::field::{Argument, Format, Message, Severity, Spec};
+use crate::field::{Argument, Format, Message, Role, Severity, Spec};
 use crate::message;
 use crate::walk::{Walk, Walker};
 
@@ -114,6 +114,7 @@ pub fn check_whole(label: &'static str, text: &str, most: u32, say: Say<'_>) {
 }
 
 static PADDING: Spec = Spec::new("padding", "Padding")
+    .role(Role::Unknown)
     .format(Format::Hex)
     .note("A space that fills the last register. The device takes no notice of it.")
     .source(SOURCE);
