@@ -147,6 +147,8 @@ impl Detail {
 pub struct Summary {
     pub telegrams: usize,
     pub check_failed: usize,
+    /// With a check, right or wrong.
+    pub checked: usize,
     /// Too short to have a check.
     pub unchecked: usize,
     /// Requests with their response.
@@ -174,6 +176,7 @@ impl Report {
         };
         for telegram in &self.telegrams {
             summary.check_failed += usize::from(telegram.verdict == Verdict::Wrong);
+            summary.checked += usize::from(matches!(telegram.verdict, Verdict::Right | Verdict::Wrong));
             summary.unchecked += usize::from(telegram.verdict == Verdict::Unchecked);
             summary.pairs += usize::from(telegram.answers.is_some());
             if telegram.guess.certainty != Certainty::Open {

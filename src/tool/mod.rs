@@ -6,7 +6,7 @@ pub mod examples;
 pub mod json;
 mod views;
 
-pub use crate::device::{PROFILES, Profile};
+pub use crate::device::{Block, PROFILES, Profile};
 pub use crate::dialogue::Certainty;
 pub use crate::frame::{PROTOCOLS, Protocol, Verdict};
 pub use crate::text::{Remark, Style};

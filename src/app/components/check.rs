@@ -5,9 +5,10 @@ use maud::{Markup, html};
 use crate::app::browser::span_text;
 use crate::app::state::Shown;
 use crate::field::{Span, hex, hex_value};
+use crate::tool::Verdict;
 
 pub fn check(shown: &Shown) -> Markup {
-    let Some(check) = shown.detail.check() else { return html! {} };
+    let Some(check) = shown.detail.check() else { return unchecked(shown) };
     let bytes = shown.bytes();
     let covered = bytes.len() - check.width;
     let computed = check.computed_bytes();
@@ -15,7 +16,8 @@ pub fn check(shown: &Shown) -> Markup {
         (check.kind.to_ascii_uppercase()) " over "
         button.link type="button" data-span=(span_text(Span::new(0, covered))) { "bytes 0 to " (covered - 1) }
         " gives " code { (hex_value(check.computed_value(), check.width)) }
-        ", on the wire low byte first: " code { (computed) } "."
+        @if check.low_first { ", on the wire low byte first: " code { (computed) } }
+        "."
     };
     if check.ok() {
         html! {
@@ -35,6 +37,21 @@ pub fn check(shown: &Shown) -> Markup {
                 }
                 button.quiet type="button" data-copy={ (hex(&bytes[..covered])) " " (computed) } {
                     "Copy with the computed check"
+                }
+            }
+        }
+    }
+}
+
+/// A protocol without a check of its own: said, so that nobody takes it for checked.
+fn unchecked(shown: &Shown) -> Markup {
+    html! {
+        @if shown.detail.verdict == Verdict::NoCheck {
+            div.check.none {
+                h3 { "No check of its own" }
+                p {
+                    (shown.telegram.choice.protocol.label)
+                    " has none: what carries it checks the bytes. A changed byte cannot be told here."
                 }
             }
         }

@@ -8,12 +8,15 @@ use super::{check, examples, fields, layout, strip};
 use crate::app::browser;
 use crate::app::state::{Decoded, Shown, State};
 use crate::field::{Message, Severity, hex};
-use crate::tool::Certainty;
+use crate::tool::{Certainty, PROTOCOLS};
 
 #[component]
 pub fn Telegram(state: State) -> impl IntoView {
     let reading = move || {
-        let markup = state.decoded.with(|decoded| decoded.shown.as_ref().map_or_else(welcome, reading));
+        let markup = state.decoded.with(|decoded| match &decoded.shown {
+            Some(shown) => reading(shown, decoded.options.device.map_or("", |device| device.label)),
+            None => welcome(),
+        });
         markup.into_string()
     };
     let layout = move || {
@@ -56,6 +59,8 @@ fn click(state: State, event: &Event) {
     }
     if let Some(index) = browser::attribute(event, "data-select").and_then(|index| index.parse().ok()) {
         state.select(index);
+    } else if let Some(key) = browser::attribute(event, "data-protocol") {
+        state.read_as(|options| options.protocol = PROTOCOLS.iter().copied().find(|it| it.key == key));
     } else if let Some(text) = browser::attribute(event, "data-copy") {
         browser::copy(&text);
     } else if let Some(span) = browser::span(event) {
@@ -117,8 +122,8 @@ fn welcome() -> Markup {
         div.welcome {
             h2 { "What does this telegram say?" }
             p {
-                "Paste the bytes of a Modbus RTU telegram, or of several, one in a line. Every byte is explained, \
-                 every check is checked, and what is wrong is said."
+                "Paste the bytes of a Modbus or PROFIBUS telegram, or of several, one in a line. Every byte is \
+                 explained, every check is checked, and what is wrong is said."
             }
             p.title { "Or start with an example" }
             div.examples { (examples::examples()) }
@@ -126,7 +131,7 @@ fn welcome() -> Markup {
     }
 }
 
-fn reading(shown: &Shown) -> Markup {
+fn reading(shown: &Shown, device: &str) -> Markup {
     let telegram = &shown.telegram;
     let direction = match telegram.guess.certainty {
         Certainty::Open => "telegram",
@@ -136,7 +141,7 @@ fn reading(shown: &Shown) -> Markup {
     let partner = partner.or(telegram.answered_by.map(|index| ("answered by telegram ", index)));
     html! {
         p.title {
-            "Telegram " (shown.index + 1) " of " (shown.of) " · Modbus RTU " (direction)
+            "Telegram " (shown.index + 1) " of " (shown.of) " · " (telegram.choice.protocol.label) " " (direction)
             @if let Some((words, index)) = partner {
                 " · " button.link type="button" data-select=(index) { (words) (index + 1) }
             }
@@ -151,12 +156,24 @@ fn reading(shown: &Shown) -> Markup {
             }
             "."
         }
+        p.kind {
+            (telegram.choice.protocol.label) ": " (telegram.choice.reason) "."
+            @if !telegram.choice.others.is_empty() {
+                " It could also be "
+                @for (index, (other, fit)) in telegram.choice.others.iter().enumerate() {
+                    @if index > 0 { ", " }
+                    button.link type="button" data-protocol=(other.key) title=(fit.reason) { (other.label) }
+                }
+                "."
+            }
+        }
         (problems(shown))
         div.bar {
             p.count { (Message::bytes(shown.bytes().len())) }
             button.quiet type="button" data-copy=(hex(shown.bytes())) { "Copy as hex" }
         }
         (strip::strip(shown))
+        (fields::device(shown, device))
         (fields::fields(shown))
         (check::check(shown))
     }

@@ -9,7 +9,7 @@ use super::{examples, marks};
 use crate::app::browser::{self, INPUT};
 use crate::app::state::{State, count};
 use crate::field::{Direction, Severity, Span};
-use crate::tool::{Remark, Report};
+use crate::tool::{PROFILES, PROTOCOLS, Remark, Report};
 
 #[component]
 pub fn Input(state: State) -> impl IntoView {
@@ -24,7 +24,6 @@ pub fn Input(state: State) -> impl IntoView {
             state.follow_cursor(cursor);
         }
     };
-    let direction = move || state.decoded.with(|decoded| decoded.direction.map_or("auto", Direction::key));
     view! {
         <section class="card input" aria-label="Input">
             <label for=INPUT class="title">"Paste telegrams as hex, one in a line"</label>
@@ -51,20 +50,41 @@ pub fn Input(state: State) -> impl IntoView {
             </div>
             <div class="settings">
                 <label>
+                    <span>"Protocol"</span>
+                    <select
+                        id="protocol"
+                        prop:value=move || state.decoded.with(|decoded| decoded.options.protocol.map_or("auto", |it| it.key))
+                        on:change:target=move |event| {
+                            let key = event.target().value();
+                            state.read_as(|options| options.protocol = PROTOCOLS.iter().copied().find(|it| it.key == key));
+                        }
+                        inner_html=choices("As the bytes tell", "auto", PROTOCOLS.iter().map(|it| (it.key, it.label)))
+                    ></select>
+                </label>
+                <label>
                     <span>"Direction"</span>
                     <select
                         id="direction"
-                        prop:value=direction
+                        prop:value=move || state.decoded.with(|decoded| decoded.options.direction.map_or("auto", Direction::key))
                         on:change:target=move |event| {
-                            let chosen = event.target().value();
+                            let key = event.target().value();
                             let known = [Direction::Request, Direction::Response];
-                            state.direct(known.into_iter().find(|direction| direction.key() == chosen));
+                            state.read_as(|options| options.direction = known.into_iter().find(|it| it.key() == key));
                         }
-                    >
-                        <option value="auto">"As the bytes tell"</option>
-                        <option value="request">"All are requests"</option>
-                        <option value="response">"All are responses"</option>
-                    </select>
+                        inner_html=choices("As the bytes tell", "auto", DIRECTIONS.into_iter())
+                    ></select>
+                </label>
+                <label>
+                    <span>"Device"</span>
+                    <select
+                        id="device"
+                        prop:value=move || state.decoded.with(|decoded| decoded.options.device.map_or("none", |it| it.key))
+                        on:change:target=move |event| {
+                            let key = event.target().value();
+                            state.read_as(|options| options.device = PROFILES.iter().copied().find(|it| it.key == key));
+                        }
+                        inner_html=choices("Any", "none", PROFILES.iter().map(|it| (it.key, it.label)))
+                    ></select>
                 </label>
                 <details
                     id="examples"
@@ -107,6 +127,22 @@ pub fn Input(state: State) -> impl IntoView {
 }
 
 const MARKS: &str = "marks";
+
+const DIRECTIONS: [(&str, &str); 2] = [("request", "All are requests"), ("response", "All are responses")];
+
+/// The options of a list: what counts where nobody chooses, then the others, each with its key.
+fn choices(
+    otherwise: &'static str,
+    key: &'static str,
+    others: impl Iterator<Item = (&'static str, &'static str)>,
+) -> String {
+    let markup = html! {
+        @for (key, label) in std::iter::once((key, otherwise)).chain(others) {
+            option value=(key) { (label) }
+        }
+    };
+    markup.into_string()
+}
 
 /// Keeps the marks behind their text.
 fn scroll(area: &HtmlTextAreaElement) {
@@ -155,11 +191,11 @@ fn reading(text: &str, report: &Report) -> Markup {
     };
     html! {
         p {
-            "Read as " strong { (style.name()) } ", Modbus RTU: " (count(summary.telegrams, "telegram"))
+            "Read as " strong { (style.name()) } ", " (protocol_name(report)) ": " (count(summary.telegrams, "telegram"))
             @if summary.pairs > 0 { ", " (summary.pairs) " answered" }
             @if summary.check_failed > 0 {
                 ", " strong.error { (count(summary.check_failed, "check")) " failed" }
-            } @else if summary.unchecked == 0 {
+            } @else if summary.checked == summary.telegrams {
                 ", " strong.good { @if summary.telegrams == 1 { "check right" } @else { "all checks right" } }
             }
             @if summary.unchecked > 0 { ", " (summary.unchecked) " too short to check" }
@@ -169,6 +205,15 @@ fn reading(text: &str, report: &Report) -> Markup {
             }
         }
         (remarks(text, report))
+    }
+}
+
+/// The protocol of all telegrams, if they have the same.
+fn protocol_name(report: &Report) -> &'static str {
+    let mut labels = report.telegrams.iter().map(|telegram| telegram.choice.protocol.label);
+    match labels.next() {
+        Some(first) if labels.all(|label| label == first) => first,
+        _ => "several protocols",
     }
 }
 

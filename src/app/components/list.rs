@@ -93,6 +93,7 @@ fn row(report: &Report, index: usize, selected: bool) -> Markup {
         Verdict::Right => ("✓", "check right", "good"),
         Verdict::Wrong => ("✗", "check failed", "error"),
         Verdict::Unchecked => ("…", "too short to check", "open"),
+        Verdict::NoCheck => ("–", "no check of its own", "open"),
     };
     html! {
         div.row role="option" id={ "telegram-" (index) } data-telegram=(index) aria-selected=(selected)
