@@ -29,6 +29,23 @@ const fn word(index: u16) -> ProcessWord {
     ProcessWord { index, sets: 1 }
 }
 
+/// Takes one part of a process data description into `words`: subindex 4x - 2 is the index of word
+/// x, the one behind it its sets.
+pub(super) fn describe(words: &mut Vec<ProcessWord>, subindex: u8, value: u32) {
+    let Some(word) = usize::from(subindex).checked_sub(2).map(|part| part / 4) else { return };
+    if word < MOST_WORDS && words.len() <= word {
+        words.resize(word + 1, ProcessWord { index: 0, sets: 0 });
+    }
+    match (words.get_mut(word), subindex % 4) {
+        (Some(word), 2) => word.index = value as u16,
+        (Some(word), 3) => word.sets = value as u8,
+        _ => {}
+    }
+}
+
+/// 16 bytes of process data each way.
+const MOST_WORDS: usize = 8;
+
 /// A set mask: the sets 0 to 7 of a parameter, one bit each, from bit `from` on. Several at once
 /// are all written; they can be read as long as they have the same value.
 pub const fn sets(from: u32) -> [Bits; 8] {

@@ -20,6 +20,7 @@ pub static PROFILE: Profile = Profile {
     key: "keb-f5-modbus",
     label: "KEB COMBIVERT F5 on Modbus",
     source: "KEB COMBIVERT F5 Modbus operator",
+    ident: None,
     hex_addresses: true,
     areas: AREAS,
     parameters: PARAMETERS,
@@ -84,21 +85,25 @@ static MAPPING_ENTRY: [Bits; 10] = {
 
 /// What gives the mapped registers their meaning.
 static LESSONS: &[Lesson] = &[
-    Lesson { from: 0x5F02, count: 1, learn: |_, value, settings| settings.read_mapping.start = value as u16 },
+    Lesson {
+        from: 0x5F02,
+        count: 1,
+        learn: |_, _, value, settings| settings.read_mapping.start = value as u16,
+    },
     Lesson {
         from: 0x5F03,
         count: 1,
-        learn: |_, value, settings| settings.write_mapping.start = value as u16,
+        learn: |_, _, value, settings| settings.write_mapping.start = value as u16,
     },
     Lesson {
         from: 0x5F32,
         count: 100,
-        learn: |n, value, settings| settings.read_mapping.set(n, Entry(value)),
+        learn: |n, _, value, settings| settings.read_mapping.set(n, Entry(value)),
     },
     Lesson {
         from: 0x5F96,
         count: 100,
-        learn: |n, value, settings| settings.write_mapping.set(n, Entry(value)),
+        learn: |n, _, value, settings| settings.write_mapping.set(n, Entry(value)),
     },
 ];
 

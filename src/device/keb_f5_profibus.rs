@@ -14,20 +14,35 @@
 //!
 //! Source: KEB COMBIVERT F5 PROFIBUS-DP operator manual (20114545), sections 9, 10.2, 12.1, 12.2.
 
-use super::{Access, Area, Display, Parameter, Profile, keb_f5};
+use super::{Access, Area, Display, Lesson, Parameter, Profile, keb_f5};
 use crate::field::{Bits, Format, Name, Spec};
 
 pub static PROFILE: Profile = Profile {
     key: "keb-f5-profibus",
     label: "KEB COMBIVERT F5 on PROFIBUS-DP",
     source: "KEB COMBIVERT F5 PROFIBUS-DP operator",
+    ident: Some(0x05EB),
     hex_addresses: true,
     areas: AREAS,
     parameters: PARAMETERS,
     most_registers: None,
     display: DISPLAY,
-    lessons: &[],
+    lessons: LESSONS,
 };
+
+/// The process data descriptions, which give process data words their meaning.
+static LESSONS: &[Lesson] = &[
+    Lesson {
+        from: 0x6000,
+        count: 1,
+        learn: |_, part, value, settings| keb_f5::describe(&mut settings.process_input, part, value),
+    },
+    Lesson {
+        from: 0x6001,
+        count: 1,
+        learn: |_, part, value, settings| keb_f5::describe(&mut settings.process_output, part, value),
+    },
+];
 
 static AREAS: &[Area] = &[
     keb_f5::inverter_parameters(

@@ -29,6 +29,8 @@ pub struct Profile {
     pub label: &'static str,
     /// The manual.
     pub source: &'static str,
+    /// Its ident number on PROFIBUS.
+    pub ident: Option<u16>,
     /// The manual writes addresses in hex.
     pub hex_addresses: bool,
     /// What stands at which address, in the order of the addresses and without overlap.
@@ -48,8 +50,8 @@ pub struct Profile {
 pub struct Lesson {
     pub from: u16,
     pub count: u16,
-    /// Takes the number of the register among them and its new value.
-    pub learn: fn(usize, u32, &mut Settings),
+    /// Takes the number of the register among them, the subindex, and the new value.
+    pub learn: fn(usize, u8, u32, &mut Settings),
 }
 
 /// Registers, or indices of a parameter channel, that follow each other and hold the same kind of thing.
@@ -195,12 +197,13 @@ impl Settings {
 }
 
 impl Profile {
-    /// Takes from a register's new value how the device is set up from then on.
-    pub fn learn(&self, address: u16, value: u32, settings: &mut Settings) {
+    /// Takes from a new value how the device is set up from then on; says whether that changes it.
+    pub fn learn(&self, address: u16, subindex: u8, value: u32, settings: &mut Settings) -> bool {
         let inside = |lesson: &&Lesson| (lesson.from..lesson.from + lesson.count).contains(&address);
-        if let Some(lesson) = self.lessons.iter().find(inside) {
-            (lesson.learn)(usize::from(address - lesson.from), value, settings);
-        }
+        let Some(lesson) = self.lessons.iter().find(inside) else { return false };
+        let before = settings.clone();
+        (lesson.learn)(usize::from(address - lesson.from), subindex, value, settings);
+        *settings != before
     }
 }
 

@@ -4,7 +4,9 @@
 mod guess;
 mod pair;
 mod protocol;
+mod turns;
 
 pub use guess::{Certainty, Guess, direction};
 pub use pair::Pairing;
 pub use protocol::{Candidate, Choice, protocols};
+pub use turns::{leaning, told, turns};

@@ -1,4 +1,5 @@
 use crate::field::Direction;
+use crate::frame::ANY_EXCHANGE;
 
 /// Finds the request that a response answers, telegram after telegram.
 ///
@@ -30,7 +31,8 @@ impl Pairing {
                 None
             }
             Direction::Response => {
-                let asked = self.waiting.iter().position(|waiting| waiting.exchange == exchange)?;
+                let asked =
+                    self.waiting.iter().position(|it| exchange == ANY_EXCHANGE || it.exchange == exchange)?;
                 Some(self.waiting.remove(asked).index)
             }
         }

@@ -7,14 +7,28 @@ pub mod modbus_pdu;
 pub mod modbus_rtu;
 pub mod modbus_serial;
 pub mod modbus_tcp;
+mod profibus_bare;
+pub mod profibus_fdl;
 
-use crate::field::{Direction, Message};
+use crate::field::{Direction, Message, Spec};
 use crate::modbus::{Dialect, Pdu, STANDARD, Server};
+use crate::profibus::{self, Body, Kind};
 use crate::walk::Telegram;
 
 /// Every protocol. Where bytes fit several equally well, the first one counts.
-pub static PROTOCOLS: &[&Protocol] =
-    &[&modbus_rtu::PROTOCOL, &modbus_tcp::PROTOCOL, &modbus_ascii::PROTOCOL, &modbus_pdu::PROTOCOL];
+pub static PROTOCOLS: &[&Protocol] = &[
+    &modbus_rtu::PROTOCOL,
+    &modbus_tcp::PROTOCOL,
+    &modbus_ascii::PROTOCOL,
+    &modbus_pdu::PROTOCOL,
+    &profibus_fdl::PROTOCOL,
+    &profibus_bare::PARAMETER_CHANNEL,
+    &profibus_bare::USER_DATA,
+    &profibus_bare::SET_PRM,
+    &profibus_bare::CHK_CFG,
+    &profibus_bare::SLAVE_DIAG,
+    &profibus_bare::GLOBAL_CONTROL,
+];
 
 /// A way to carry telegrams.
 #[derive(Debug)]
@@ -30,10 +44,8 @@ pub struct Protocol {
     pub first: fn(&[u8]) -> usize,
     /// What tells who speaks.
     pub speaker: Speaker,
-    /// What request and response have in common.
+    /// What request and response have in common; `None` for what nobody answers.
     pub exchange: fn(&[u8]) -> Option<u64>,
-    /// A line with many units, which has a broadcast address.
-    pub serial: bool,
     /// How many requests can wait for their responses at a time.
     pub waiting: usize,
     /// An empty frame to read the bytes into.
@@ -45,7 +57,18 @@ pub struct Protocol {
 pub enum Speaker {
     /// Function code and length of the PDU: gives the PDU, and how many bytes are around it.
     Pdu(fn(&[u8]) -> (&[u8], usize)),
+    /// The frame says it.
+    Frame(fn(&[u8]) -> Option<Direction>),
+    /// There is only one who says such a thing.
+    Always(Direction),
+    /// The two take turns. The number tells how much a telegram looks like a response (above 0) or a
+    /// request (below 0).
+    Turns(fn(&[u8]) -> i32),
 }
+
+/// The [`exchange`](Protocol::exchange) of a response that fits any request, since it says nothing
+/// of it.
+pub const ANY_EXCHANGE: u64 = u64::MAX;
 
 /// How well bytes fit a protocol.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,11 +94,12 @@ pub enum Verdict {
 #[derive(Clone, Debug)]
 pub struct Settings {
     pub dialect: &'static Dialect,
+    pub profibus: profibus::Settings,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { dialect: &STANDARD }
+        Self { dialect: &STANDARD, profibus: profibus::Settings::default() }
     }
 }
 
@@ -95,4 +119,8 @@ pub trait Frame: Telegram {
 pub enum Content<'a> {
     /// A PDU for a server or from it.
     Modbus { server: Server, pdu: &'a Pdu },
+    /// A telegram of a service, for a slave or from it.
+    Profibus { slave: Option<u8>, kind: &'static Kind, body: &'a dyn Body },
+    /// Only the frame itself: a token, an acknowledgement.
+    Nothing(&'static Spec),
 }

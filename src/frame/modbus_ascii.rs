@@ -20,7 +20,6 @@ pub static PROTOCOL: Protocol = Protocol {
     first: <[u8]>::len,
     speaker: Speaker::Pdu(|bytes| (pdu_bytes(bytes), AROUND)),
     exchange: serial::exchange,
-    serial: true,
     waiting: 1,
     expect: |bytes, direction, settings| Box::new(Ascii::expect(bytes, direction, settings.dialect)),
 };

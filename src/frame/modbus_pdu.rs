@@ -23,7 +23,6 @@ pub static PROTOCOL: Protocol = Protocol {
     first: <[u8]>::len,
     speaker: Speaker::Pdu(|bytes| (bytes, 0)),
     exchange: |bytes| bytes.first().map(|function| u64::from(function & !EXCEPTION)),
-    serial: false,
     waiting: 1,
     expect: |bytes, direction, settings| {
         let function = bytes.first().copied().unwrap_or_default();

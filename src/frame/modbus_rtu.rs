@@ -25,7 +25,6 @@ pub static PROTOCOL: Protocol = Protocol {
     first: <[u8]>::len,
     speaker: Speaker::Pdu(|bytes| (Rtu::pdu_bytes(bytes), AROUND)),
     exchange: serial::exchange,
-    serial: true,
     waiting: 1,
     expect: |bytes, direction, settings| Box::new(Rtu::expect(bytes, direction, settings.dialect)),
 };

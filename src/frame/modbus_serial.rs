@@ -73,10 +73,10 @@ pub fn check_length(w: &mut dyn Walker, spec: &'static Spec, length: usize, long
     }
 }
 
-/// Unit and function, which request and response have in common.
+/// Unit and function, which request and response have in common. Nobody answers a broadcast.
 pub fn exchange(bytes: &[u8]) -> Option<u64> {
     let [unit, function, ..] = bytes else { return None };
-    Some(u64::from(*unit) << 8 | u64::from(function & !EXCEPTION))
+    (*unit != BROADCAST).then(|| u64::from(*unit) << 8 | u64::from(function & !EXCEPTION))
 }
 
 /// Takes from the request what `pdu`, its response, does not repeat.

@@ -27,7 +27,6 @@ pub static PROTOCOL: Protocol = Protocol {
         }
         _ => None,
     },
-    serial: false,
     waiting: 64,
     expect: |bytes, direction, settings| Box::new(Tcp::expect(bytes, direction, settings.dialect)),
 };

@@ -1,9 +1,10 @@
-use crate::device::{self, Profile, Registers, Said};
+use crate::device::{self, Profile};
 use crate::dialogue::{self, Candidate, Certainty, Choice, Guess, Pairing};
-use crate::field::{self, Check, Direction, Field, Message, Problem, Span, Value, hex_value};
-use crate::frame::{self, Content, Frame, Protocol, Speaker, Verdict, modbus_ascii, modbus_serial};
+use crate::field::{Direction, Span};
+use crate::frame::{self, Content, Frame, Protocol, Speaker, Verdict, modbus_ascii};
 use crate::message;
-use crate::modbus::{Access, EXCEPTION, Pdu, Server};
+use crate::profibus::Service;
+use crate::profibus::jobs::{self, Jobs, Step};
 use crate::text::{self, Line, Style};
 use crate::walk::{self, guide};
 
@@ -32,7 +33,9 @@ pub struct Settings {
 ///
 /// Here the telegrams are found, checked and paired. Their fields are read one by one by
 /// [`Report::detail`], when somebody looks.
-pub fn decode(text: &str, options: Options) -> Report {
+pub fn decode(text: &str, mut options: Options) -> Report {
+    let ident = &mut options.settings.frame.profibus.ident;
+    *ident = ident.or(options.device.and_then(|device| device.ident));
     let reading = text::read(text);
     let mut report = Report {
         telegrams: Vec::new(),
@@ -47,16 +50,28 @@ pub fn decode(text: &str, options: Options) -> Report {
     report.not_understood = empty;
     lines.iter_mut().for_each(characters_to_bytes);
     let choices = report.protocols(&lines);
-    let mut pairing = Pairing::default();
+    let mut telegrams = Vec::new();
     for (line, choice) in lines.into_iter().zip(choices) {
         let mut rest = Some(line);
         while let Some(mut line) = rest.take() {
             let length = (choice.protocol.first)(&line.bytes).max(1);
             rest = split(&mut line, length);
-            report.add(line, choice.clone(), &mut pairing);
+            telegrams.push((line, choice.clone()));
         }
     }
-    report.learn();
+    let leanings: Vec<i32> = telegrams
+        .iter()
+        .filter_map(|(line, choice)| match choice.protocol.speaker {
+            Speaker::Turns(leaning) => Some(leaning(&line.bytes)),
+            _ => None,
+        })
+        .collect();
+    let mut turns = dialogue::turns(&leanings).into_iter();
+    let mut pairing = Pairing::default();
+    for (line, choice) in telegrams {
+        report.add(line, choice, &mut turns, &mut pairing);
+    }
+    report.follow();
     report
 }
 
@@ -70,9 +85,9 @@ pub struct Report {
     pub style: Option<Style>,
     /// How many lines the text has, empty ones included.
     pub line_count: usize,
-    options: Options,
-    /// From which telegram on the device is known to be set up otherwise, in their order.
-    learned: Vec<(usize, device::Settings)>,
+    pub(super) options: Options,
+    /// From which telegram on the devices are known to be set up otherwise, in their order.
+    learned: Vec<(usize, Settings)>,
 }
 
 /// A telegram as far as it was looked at without reading its fields.
@@ -88,58 +103,8 @@ pub struct Telegram {
     pub answers: Option<usize>,
     /// The index of the response to it.
     pub answered_by: Option<usize>,
-}
-
-/// Everything about one telegram.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Detail {
-    /// The tree; its leaves tile the bytes.
-    pub fields: Vec<Field>,
-    /// What the telegram says, as if its check were right.
-    pub said: Message,
-    pub verdict: Verdict,
-    /// What kind of telegram it is: "Read holding registers, function 3".
-    pub kind: Message,
-    /// What the kind is about, for newcomers, and where it is described.
-    pub note: &'static str,
-    pub source: &'static str,
-    pub unit: Option<u8>,
-    /// Without the exception bit.
-    pub function: Option<u8>,
-    pub exception: Option<u8>,
-    pub start: Option<u16>,
-    pub count: Option<usize>,
-    pub values: Vec<u32>,
-    /// The values are bits: coils or discrete inputs.
-    pub coils: bool,
-    /// What the device's manual says about it.
-    pub device: Said,
-}
-
-impl Detail {
-    /// The telegram in one sentence, with what its check makes of it.
-    pub fn meaning(&self) -> Message {
-        match self.verdict {
-            Verdict::Right | Verdict::NoCheck => self.said.clone(),
-            Verdict::Wrong => message!("{said}, but the check does not match", said = self.said.clone()),
-            Verdict::Unchecked => message!("the beginning of a telegram: too short to say what it means"),
-        }
-    }
-
-    /// The problems of all fields, in their order, and then those that the device would have.
-    pub fn problems(&self) -> Vec<&Problem> {
-        let mut problems = field::problems(&self.fields);
-        problems.extend(self.device.problems());
-        problems
-    }
-
-    /// The check bytes, where the telegram is long enough to have some.
-    pub fn check(&self) -> Option<Check> {
-        field::leaves(&self.fields).into_iter().find_map(|leaf| match leaf.value {
-            Value::Check(check) => Some(check),
-            _ => None,
-        })
-    }
+    /// What it is for a job of the parameter channel.
+    pub step: Option<Step>,
 }
 
 /// A report in numbers.
@@ -182,46 +147,14 @@ impl Report {
             if telegram.guess.certainty != Certainty::Open {
                 match telegram.guess.direction {
                     Direction::Request => {
-                        let broadcast = telegram.line.bytes[0] == modbus_serial::BROADCAST
-                            && telegram.choice.protocol.serial;
-                        summary.unanswered += usize::from(telegram.answered_by.is_none() && !broadcast);
+                        let asks = (telegram.choice.protocol.exchange)(&telegram.line.bytes).is_some();
+                        summary.unanswered += usize::from(telegram.answered_by.is_none() && asks);
                     }
                     Direction::Response => summary.unpaired += usize::from(telegram.answers.is_none()),
                 }
             }
         }
         summary
-    }
-
-    /// Reads the fields of telegram `index`.
-    pub fn detail(&self, index: usize) -> Option<Detail> {
-        let telegram = self.telegrams.get(index)?;
-        let (frame, reading) = self.read(index);
-        let bytes = &telegram.line.bytes;
-        let device = self.device_says(index, frame.as_ref(), &reading.fields);
-        let mut detail = Detail {
-            said: frame.meaning(),
-            verdict: telegram.verdict,
-            kind: message!("a telegram"),
-            note: "",
-            source: "",
-            unit: None,
-            function: None,
-            exception: None,
-            start: None,
-            count: None,
-            values: Vec::new(),
-            coils: false,
-            device,
-            fields: reading.fields,
-        };
-        match frame.content() {
-            Content::Modbus { server, pdu } => {
-                detail.unit = server.unit().filter(|_| !bytes.is_empty());
-                detail.tell_pdu(server, pdu);
-            }
-        }
-        Some(detail)
     }
 
     /// How every telegram of the kind of telegram `index` is laid out.
@@ -246,14 +179,25 @@ impl Report {
         dialogue::protocols(&candidates, &self.options.settings.frame)
     }
 
-    fn add(&mut self, line: Line, choice: Choice, pairing: &mut Pairing) {
+    fn add(
+        &mut self,
+        line: Line,
+        choice: Choice,
+        turns: &mut dyn Iterator<Item = Guess>,
+        pairing: &mut Pairing,
+    ) {
         let index = self.telegrams.len();
         let protocol = choice.protocol;
-        let guess = match self.options.direction {
-            Some(direction) => {
+        let turn = match protocol.speaker {
+            Speaker::Turns(_) => turns.next(),
+            _ => None,
+        };
+        let guess = match (self.options.direction, turn) {
+            (Some(direction), _) => {
                 Guess { direction, certainty: Certainty::Certain, reason: message!("set by hand") }
             }
-            None => self.guess(protocol, &line.bytes, pairing),
+            (None, Some(turn)) => turn,
+            (None, None) => self.guess(protocol, &line.bytes, pairing),
         };
         let verdict = (protocol.verdict)(&line.bytes);
         let exchange = (protocol.exchange)(&line.bytes);
@@ -262,7 +206,15 @@ impl Report {
         if let Some(request) = answers {
             self.telegrams[request].answered_by = Some(index);
         }
-        self.telegrams.push(Telegram { line, choice, guess, verdict, answers, answered_by: None });
+        self.telegrams.push(Telegram {
+            line,
+            choice,
+            guess,
+            verdict,
+            answers,
+            answered_by: None,
+            step: None,
+        });
     }
 
     /// Who speaks: by the bytes, and where those leave it open, by the request that waits.
@@ -271,9 +223,15 @@ impl Report {
         let exchange = (protocol.exchange)(bytes);
         let awaited =
             exchange.is_some() && asked.is_some_and(|(_, asked)| (protocol.exchange)(asked) == exchange);
-        let Speaker::Pdu(inside) = protocol.speaker;
-        let (pdu, around) = inside(bytes);
-        let guess = dialogue::direction(pdu, around, awaited, self.options.settings.frame.dialect);
+        let guess = match protocol.speaker {
+            Speaker::Pdu(inside) => {
+                let (pdu, around) = inside(bytes);
+                dialogue::direction(pdu, around, awaited, self.options.settings.frame.dialect)
+            }
+            Speaker::Frame(told) => dialogue::told(told(bytes)),
+            Speaker::Always(direction) => dialogue::told(Some(direction)),
+            Speaker::Turns(leaning) => dialogue::leaning(leaning(bytes)),
+        };
         match asked {
             Some((index, asked)) if guess.certainty == Certainty::Open && asked == bytes => Guess {
                 direction: Direction::Response,
@@ -288,13 +246,13 @@ impl Report {
     }
 
     /// A frame of the kind of telegram `index` with nothing read into it yet.
-    fn expected(&self, index: usize) -> Box<dyn Frame> {
+    pub(super) fn expected(&self, index: usize) -> Box<dyn Frame> {
         let Telegram { line, choice, guess, .. } = &self.telegrams[index];
-        (choice.protocol.expect)(&line.bytes, guess.direction, &self.options.settings.frame)
+        (choice.protocol.expect)(&line.bytes, guess.direction, &self.settings(index).frame)
     }
 
     /// Reads telegram `index`, with what its request says that it does not repeat.
-    fn read(&self, index: usize) -> (Box<dyn Frame>, walk::Reading) {
+    pub(super) fn read(&self, index: usize) -> (Box<dyn Frame>, walk::Reading) {
         let mut frame = self.expected(index);
         let telegram = &self.telegrams[index];
         if let Some(request) = telegram.answers {
@@ -306,120 +264,61 @@ impl Report {
         (frame, reading)
     }
 
-    /// How the device is set up when telegram `index` is sent.
-    fn settings(&self, index: usize) -> &device::Settings {
+    /// How the devices are set up when telegram `index` is sent.
+    pub(super) fn settings(&self, index: usize) -> &Settings {
         let known = self.learned.iter().rev().find(|(from, _)| *from <= index);
-        known.map_or(&self.options.settings.device, |(_, settings)| settings)
+        known.map_or(&self.options.settings, |(_, settings)| settings)
     }
 
-    fn device_says(&self, index: usize, frame: &dyn Frame, fields: &[Field]) -> Said {
-        let Some(profile) = self.options.device else { return Said::default() };
-        match frame.content() {
-            Content::Modbus { pdu, .. } => {
-                let Some(registers) = pdu.body.access().filter(|access| access.start.is_some()) else {
-                    return Said::default();
-                };
-                let values = big_endian(&registers);
-                let registers = device_registers(&registers, &values, fields);
-                profile.registers(&registers, self.settings(index))
-            }
-        }
-    }
-
-    /// Takes from the writes of the text how the device is set up from then on.
-    fn learn(&mut self) {
-        let Some(profile) = self.options.device else { return };
-        let mut settings = self.options.settings.device.clone();
+    /// Follows the jobs of parameter channels, and takes from what is written how the devices are
+    /// set up from then on.
+    fn follow(&mut self) {
+        let profile = self.options.device;
+        let mut slaves: Vec<(Option<u8>, Jobs)> = Vec::new();
+        let mut settings = self.options.settings.clone();
         for index in 0..self.telegrams.len() {
-            let (frame, _) = self.read(index);
-            let Content::Modbus { pdu, .. } = frame.content();
-            let Some(access) = pdu.body.access().filter(|access| access.write) else { continue };
-            let Some(start) = access.start else { continue };
-            let before = settings.clone();
-            for (address, value) in (start..=u16::MAX).zip(access.values) {
-                profile.learn(address, *value, &mut settings);
+            let pdu = matches!(self.telegrams[index].choice.protocol.speaker, Speaker::Pdu(_));
+            if pdu && profile.is_none() {
+                continue;
             }
-            if settings != before {
+            let (frame, _) = self.read(index);
+            let mut changed = false;
+            match frame.content() {
+                Content::Modbus { pdu, .. } => {
+                    let written = pdu.body.access().filter(|access| access.write);
+                    let start = written.and_then(|access| access.start);
+                    if let (Some(profile), Some(access), Some(start)) = (profile, written, start) {
+                        for (address, value) in (start..=u16::MAX).zip(access.values) {
+                            changed |= profile.learn(address, 0, *value, &mut settings.device);
+                        }
+                    }
+                }
+                Content::Profibus { slave, body, .. } => {
+                    if let Some(layout) = body.layout() {
+                        changed = settings.frame.profibus.layout != layout;
+                        settings.frame.profibus.layout = layout;
+                    }
+                    let Some(channel) = body.channel() else { continue };
+                    let known = slaves.iter().position(|(other, _)| *other == slave);
+                    let at = known.unwrap_or_else(|| {
+                        slaves.push((slave, Jobs::default()));
+                        slaves.len() - 1
+                    });
+                    let step = slaves[at].1.next(channel);
+                    let done = step.as_ref().filter(|step| step.state == jobs::State::Done);
+                    let written = done.filter(|_| channel.service() == Service::Write);
+                    if let (Some(profile), Some(value)) = (profile, written.and_then(|step| step.value)) {
+                        changed |=
+                            profile.learn(channel.index, channel.subindex, value, &mut settings.device);
+                    }
+                    self.telegrams[index].step = step;
+                }
+                Content::Nothing(_) => {}
+            }
+            if changed {
                 self.learned.push((index + 1, settings.clone()));
             }
         }
-    }
-}
-
-impl Detail {
-    /// What a PDU says.
-    fn tell_pdu(&mut self, server: Server, pdu: &Pdu) {
-        let spec = &pdu.kind.spec;
-        let access = pdu.body.access();
-        let write = access.is_some_and(|access| access.write);
-        if let Some(label) = missing(&self.fields) {
-            self.said = message!(
-                "{kind}, cut off: {label} is incomplete",
-                kind = field::Argument::Term(spec.label),
-                label = label
-            );
-        } else if let Some(things) = self.device.sentence() {
-            let who = server.name();
-            self.said = match (pdu.direction, write) {
-                (Direction::Request, false) => message!("ask {who} for {things}", who = who, things = things),
-                (Direction::Request, true) => {
-                    message!("write to {who}: {things}", who = who, things = things)
-                }
-                (Direction::Response, false) => {
-                    message!("{who} answers: {things}", who = who, things = things)
-                }
-                (Direction::Response, true) => {
-                    message!("{who} confirms what it wrote: {things}", who = who, things = things)
-                }
-            };
-        }
-        let function = has_function(&self.fields).then_some(pdu.function);
-        self.kind = kind_name(spec.label, function);
-        self.note = spec.note;
-        self.source = spec.source;
-        self.function = function.map(|function| function & !EXCEPTION);
-        self.exception = pdu.body.exception();
-        self.start = access.and_then(|access| access.start);
-        self.count = access.map(|access| access.count);
-        self.values = access.map_or(Vec::new(), |access| access.values.to_vec());
-    }
-}
-
-/// Whether the function code was read.
-fn has_function(fields: &[Field]) -> bool {
-    field::leaves(fields).iter().any(|leaf| matches!(leaf.value, Value::Selector { .. }))
-}
-
-/// The values of registers as bytes, high byte first.
-fn big_endian(access: &Access<'_>) -> Vec<u8> {
-    let width = access.table.width;
-    access.values.iter().flat_map(|value| value.to_be_bytes().into_iter().skip(4 - width)).collect()
-}
-
-/// Registers as a device's table takes them: with the place of their values in the telegram, or of
-/// what names them.
-fn device_registers<'a>(access: &Access<'_>, values: &'a [u8], fields: &[Field]) -> Registers<'a> {
-    let place = |spec: &'static field::Spec| {
-        let mut span = None;
-        for field in fields {
-            field.visit(&mut |field| {
-                if std::ptr::eq(field.spec, spec) {
-                    span = span.or(Some(field.span));
-                }
-            });
-        }
-        span
-    };
-    let table = access.table;
-    let given = place(&table.values).or(place(&table.value)).filter(|_| !access.values.is_empty());
-    let span = given.or(place(&table.start)).unwrap_or_default();
-    Registers {
-        start: access.start.unwrap_or_default(),
-        count: access.count,
-        width: table.width,
-        access: if access.write { device::Access::Write } else { device::Access::Read },
-        values: given.is_some().then_some(values),
-        span,
     }
 }
 
@@ -445,25 +344,4 @@ fn split(line: &mut Line, length: usize) -> Option<Line> {
     let span = Span::new(next, line.span.to);
     line.span.to = next;
     Some(Line { number: line.number, span, bytes, places, remarks, colon: line.colon })
-}
-
-/// The first field, items of lists aside, that the telegram ends before.
-fn missing(fields: &[Field]) -> Option<Message> {
-    fields.iter().find(|field| matches!(field.value, Value::Missing { .. })).map(Field::label)
-}
-
-fn kind_name(label: &'static str, function: Option<u8>) -> Message {
-    let Some(function) = function else { return message!("no function code yet") };
-    let plain = function & !EXCEPTION;
-    let label = field::Argument::Term(label);
-    match (function & EXCEPTION != 0, plain) {
-        (true, _) => message!("{label} to function {plain}", label = label, plain = plain),
-        (false, 0..=9) => message!("{label}, function {plain}", label = label, plain = plain),
-        (false, _) => message!(
-            "{label}, function {plain} ({hex})",
-            label = label,
-            plain = plain,
-            hex = hex_value(plain.into(), 1)
-        ),
-    }
 }

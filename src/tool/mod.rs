@@ -1,6 +1,7 @@
 //! What the page and the command line offer: plain data in, plain data out.
 
 mod decode;
+mod detail;
 pub mod examples;
 #[cfg(feature = "json")]
 pub mod json;
@@ -11,5 +12,6 @@ pub use crate::dialogue::Certainty;
 pub use crate::frame::{PROTOCOLS, Protocol, Verdict};
 pub use crate::text::{Remark, Style};
 pub use crate::walk::guide::{Row, Size};
-pub use decode::{Detail, Options, Report, Settings, Summary, Telegram, decode};
+pub use decode::{Options, Report, Settings, Summary, Telegram, decode};
+pub use detail::Detail;
 pub use views::{Kind, View, views};

@@ -1,0 +1,172 @@
+//! The shape that the services with user data share: the parameter channel (8 bytes) where the
+//! configuration has one, then the process data as 16-bit words.
+
+use super::parameter_channel::LENGTH;
+use super::{Body, Channel, Settings};
+use crate::field::{Direction, Format, Message, Order, Spec, hex_value};
+use crate::message;
+use crate::walk::{Telegram, Walk, Walker};
+
+/// Whose data it is, seen from the master.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// From the master, such as the control word.
+    Outputs,
+    /// From the slave, such as the status word.
+    Inputs,
+}
+
+/// The process data of a telegram.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Process<'a> {
+    pub side: Side,
+    /// Where it begins in the user data, in bytes; each word takes two. The last byte of an odd
+    /// number comes behind the words.
+    pub offset: usize,
+    pub words: &'a [u16],
+    /// The words come low byte first.
+    pub swapped: bool,
+}
+
+/// User data of one side.
+pub struct UserData {
+    side: Side,
+    /// Not exchanged, but read from the slave by another service.
+    read: bool,
+    channel: Option<Channel>,
+    swapped: bool,
+    /// Bytes of process data by the configuration.
+    size: usize,
+    words: Vec<u16>,
+    /// The last byte of an odd number.
+    odd: u8,
+}
+
+impl UserData {
+    pub fn exchanged(side: Side, settings: &Settings) -> Self {
+        let (direction, size) = match side {
+            Side::Outputs => (Direction::Request, settings.layout.outputs),
+            Side::Inputs => (Direction::Response, settings.layout.inputs),
+        };
+        Self {
+            side,
+            read: false,
+            channel: settings.layout.channel.then(|| Channel::new(direction, settings)),
+            swapped: settings.swap_process,
+            size,
+            words: vec![0; size / 2],
+            odd: 0,
+        }
+    }
+
+    pub fn read(side: Side, settings: &Settings) -> Self {
+        Self { read: true, ..Self::exchanged(side, settings) }
+    }
+
+    /// "0400h, 05DCh", or nothing.
+    fn listed(&self) -> Option<String> {
+        let mut values: Vec<String> = self.words.iter().map(|word| hex_value(u64::from(*word), 2)).collect();
+        if !self.size.is_multiple_of(2) {
+            values.push(hex_value(self.odd.into(), 1));
+        }
+        (!values.is_empty()).then(|| values.join(", "))
+    }
+}
+
+impl Telegram for UserData {
+    fn walk(&mut self, w: &mut dyn Walker) -> Walk {
+        if let Some(channel) = &mut self.channel {
+            w.within(&CHANNEL, &mut |w| channel.walk(w))?;
+        }
+        let words = match self.side {
+            Side::Outputs => &OUTPUTS,
+            Side::Inputs => &INPUTS,
+        };
+        if self.size > 1 {
+            let word = if self.swapped { &words.low_first } else { &words.word };
+            w.list(&words.list, &mut self.words, self.size / 2, Some(1), |w, value| w.u16(word, value))?;
+        }
+        if !self.size.is_multiple_of(2) {
+            w.u8(&words.odd, &mut self.odd)?;
+        }
+        Ok(())
+    }
+}
+
+impl Body for UserData {
+    fn meaning(&self, who: Message) -> Message {
+        let process = match (self.listed(), self.side, self.read) {
+            (None, Side::Outputs, false) => message!("send {who} no outputs", who = who.clone()),
+            (None, Side::Outputs, true) => message!("{who} has no outputs", who = who.clone()),
+            (None, Side::Inputs, _) => message!("{who} has no inputs", who = who.clone()),
+            (Some(data), Side::Outputs, false) => {
+                message!("send {who} outputs {data}", who = who.clone(), data = data)
+            }
+            (Some(data), Side::Outputs, true) => {
+                message!("{who} has outputs {data}", who = who.clone(), data = data)
+            }
+            (Some(data), Side::Inputs, _) => {
+                message!("{who} has inputs {data}", who = who.clone(), data = data)
+            }
+        };
+        match &self.channel {
+            // What a channel says to those who read it along is not said to them.
+            Some(channel) if !self.read => {
+                message!("{channel}; {process}", channel = channel.meaning(who), process = process)
+            }
+            _ => process,
+        }
+    }
+
+    fn channel(&self) -> Option<&Channel> {
+        self.channel.as_ref()
+    }
+
+    fn answer(&mut self, request: &Channel) {
+        if let Some(channel) = &mut self.channel {
+            channel.answer(request);
+        }
+    }
+
+    fn process(&self) -> Option<Process<'_>> {
+        let offset = if self.channel.is_some() { LENGTH } else { 0 };
+        Some(Process { side: self.side, offset, words: &self.words, swapped: self.swapped })
+    }
+}
+
+static CHANNEL: Spec = Spec::new("channel", "Parameter channel")
+    .short("Channel")
+    .note("A job to read or write one parameter, or its confirmation.")
+    .source(SOURCE);
+
+/// The words for the process data of one side.
+struct Words {
+    list: Spec,
+    word: Spec,
+    low_first: Spec,
+    /// A last byte without another to make a word of.
+    odd: Spec,
+}
+
+static OUTPUTS: Words = Words {
+    list: Spec::new("outputs", "Outputs").note("Process data from the master to the slave.").source(SOURCE),
+    word: OUTPUT,
+    low_first: OUTPUT.order(Order::Little),
+    odd: Spec::new("output", "Output byte").short("Output").format(Format::Hex).note(ODD),
+};
+
+static INPUTS: Words = Words {
+    list: Spec::new("inputs", "Inputs").note("Process data from the slave to the master.").source(SOURCE),
+    word: INPUT,
+    low_first: INPUT.order(Order::Little),
+    odd: Spec::new("input", "Input byte").short("Input").format(Format::Hex).note(ODD),
+};
+
+const OUTPUT: Spec = Spec::new("output", "Output word").short("Output").format(Format::Register).note(NOTE);
+const INPUT: Spec = Spec::new("input", "Input word").short("Input").format(Format::Register).note(NOTE);
+
+const NOTE: &str =
+    "What it means, the slave's process data mapping says. A value of 32 bits takes two words.";
+const ODD: &str = "The last byte of process data whose number of bytes is odd.";
+
+const SOURCE: &str = "KEB COMBIVERT F5 PROFIBUS-DP operator, 7.4";
