@@ -190,6 +190,7 @@ impl Detail {
             };
         }
         self.channel = body.channel().cloned();
+        self.values.extend(self.channel.as_ref().and_then(Channel::value));
         self.tell_kind(spec, Message::term(spec.label));
     }
 

@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::{Certainty, Detail, Report, Telegram, Verdict};
 use crate::device::Block;
 use crate::field::{Field, Message, hex};
+use crate::profibus;
 
 /// One telegram. Keys that do not apply are left out.
 #[derive(Debug, Serialize)]
@@ -32,6 +33,10 @@ pub struct Row {
     pub count: Option<usize>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub values: Vec<RawValue>,
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub channel: Option<Channel>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub job: Option<Job>,
     pub meaning: String,
     /// What the device's manual says about the registers.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -43,6 +48,34 @@ pub struct Row {
     pub problems: Vec<Problem>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fields: Option<Vec<Node>>,
+}
+
+/// The parameter channel.
+#[derive(Debug, Serialize)]
+pub struct Channel {
+    pub index: u16,
+    pub subindex: u8,
+    pub handshake: u8,
+    /// `none`, `read`, `write` or `both`.
+    pub service: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error: Option<Refusal>,
+}
+
+/// Why a slave did not do a job.
+#[derive(Debug, Serialize)]
+pub struct Refusal {
+    pub class: u8,
+    pub code: u8,
+    pub additional: u16,
+}
+
+/// The job of the parameter channel that a telegram belongs to.
+#[derive(Debug, Serialize)]
+pub struct Job {
+    pub number: usize,
+    /// `asked`, `running`, `done` or `failed`.
+    pub state: &'static str,
 }
 
 /// A register's number, or a coil's state.
@@ -182,8 +215,24 @@ fn row(index: usize, telegram: &Telegram, detail: Detail, fields: bool) -> Row {
         pair: telegram.answers.or(telegram.answered_by).map(|index| index + 1),
         problems: problems.chain(remarks).collect(),
         fields: fields.then(|| detail.fields.iter().map(node).collect()),
+        channel: detail.channel.as_ref().map(channel),
+        job: detail.step.as_ref().map(|step| Job { number: step.job, state: step.state.key() }),
         values: detail.values.iter().map(|value| raw(*value, detail.coils)).collect(),
         device: detail.device.blocks.iter().map(known).collect(),
+    }
+}
+
+fn channel(channel: &profibus::Channel) -> Channel {
+    Channel {
+        index: channel.index,
+        subindex: channel.subindex,
+        handshake: channel.handshake(),
+        service: channel.service().key(),
+        error: channel.refusal().map(|refusal| Refusal {
+            class: refusal.class,
+            code: refusal.code,
+            additional: refusal.additional,
+        }),
     }
 }
 
