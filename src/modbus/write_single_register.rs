@@ -13,6 +13,7 @@ pub static REQUEST: Kind = Kind {
         .note("Writes one register.")
         .source(SOURCE),
     length: Length::Fixed(5),
+    serial_only: false,
     new: || WriteSingle::of(&HOLDING_REGISTERS, Direction::Request),
 };
 
@@ -23,6 +24,7 @@ pub static RESPONSE: Kind = Kind {
         .note("Repeats the request once the register is written.")
         .source(SOURCE),
     length: Length::Fixed(5),
+    serial_only: false,
     new: || WriteSingle::of(&HOLDING_REGISTERS, Direction::Response),
 };
 
