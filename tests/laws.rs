@@ -65,7 +65,7 @@ fn sample(kind: Spoken, seed: u64) -> Rtu {
 }
 
 /// Problems that a sample may have: its fields are drawn one by one, and these rules are about several.
-const BETWEEN_FIELDS: &[&str] = &["address-overflow"];
+const BETWEEN_FIELDS: &[&str] = &["address-overflow", "unused-bits", "response-too-long", "half-record"];
 
 fn write(rtu: &mut Rtu) -> Vec<u8> {
     walk::write(rtu, &Deviations::default())

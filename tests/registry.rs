@@ -10,7 +10,7 @@ use buslens::tool::examples::EXAMPLES;
 use buslens::tool::{Options, Verdict, decode};
 
 /// Files below `src/modbus` that are no function code.
-const SHARED: &[&str] = &["length", "registers", "dialects"];
+const SHARED: &[&str] = &["bare", "choice", "coils", "dialects", "file_records", "length", "registers"];
 
 #[test]
 fn every_function_code_file_is_listed() {
@@ -30,6 +30,17 @@ fn every_function_code_file_is_listed() {
             let name = format!("{}{name}", folder.replace('/', "::"));
             assert!(listed(&name) == [true, true] || in_one_line, "{name} is in no registry");
         }
+    }
+}
+
+#[test]
+fn every_encapsulated_interface_is_listed() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/modbus/encapsulated_interface");
+    let registry = std::fs::read_to_string(source.join("mod.rs")).unwrap();
+    for entry in std::fs::read_dir(source).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_stem().unwrap().to_str().unwrap();
+        assert!(name == "mod" || registry.contains(&format!("&{name}::INTERFACE")), "{name} is not listed");
     }
 }
 

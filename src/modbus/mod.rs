@@ -5,16 +5,37 @@
 //!
 //! Source: Modbus application protocol V1.1b3, sections 4 to 7; numbers are big-endian (4.2).
 
+mod bare;
+mod choice;
+mod coils;
+mod diagnostics;
+mod encapsulated_interface;
 mod exception;
+mod file_records;
+mod get_comm_event_counter;
+mod get_comm_event_log;
 pub mod keb;
 mod length;
+mod mask_write_register;
+mod read_coils;
+mod read_discrete_inputs;
+mod read_exception_status;
+mod read_fifo_queue;
+mod read_file_record;
 mod read_holding_registers;
 mod read_input_registers;
+mod read_write_multiple_registers;
 mod registers;
+mod report_server_id;
 mod unknown;
+mod write_file_record;
+mod write_multiple_coils;
 mod write_multiple_registers;
+mod write_single_coil;
 mod write_single_register;
 
+use bare::Bare;
+use choice::Choice;
 pub use length::Length;
 pub use registers::{Layout, Table};
 
@@ -24,14 +45,44 @@ use crate::walk::{Telegram, Walk, Walker};
 
 /// Every telegram that a function code has, requests before responses.
 pub static KINDS: &[&Kind] = &[
+    &read_coils::REQUEST,
+    &read_coils::RESPONSE,
+    &read_discrete_inputs::REQUEST,
+    &read_discrete_inputs::RESPONSE,
     &read_holding_registers::REQUEST,
     &read_holding_registers::RESPONSE,
     &read_input_registers::REQUEST,
     &read_input_registers::RESPONSE,
+    &write_single_coil::REQUEST,
+    &write_single_coil::RESPONSE,
     &write_single_register::REQUEST,
     &write_single_register::RESPONSE,
+    &read_exception_status::REQUEST,
+    &read_exception_status::RESPONSE,
+    &diagnostics::REQUEST,
+    &diagnostics::RESPONSE,
+    &get_comm_event_counter::REQUEST,
+    &get_comm_event_counter::RESPONSE,
+    &get_comm_event_log::REQUEST,
+    &get_comm_event_log::RESPONSE,
+    &write_multiple_coils::REQUEST,
+    &write_multiple_coils::RESPONSE,
     &write_multiple_registers::REQUEST,
     &write_multiple_registers::RESPONSE,
+    &report_server_id::REQUEST,
+    &report_server_id::RESPONSE,
+    &read_file_record::REQUEST,
+    &read_file_record::RESPONSE,
+    &write_file_record::REQUEST,
+    &write_file_record::RESPONSE,
+    &mask_write_register::REQUEST,
+    &mask_write_register::RESPONSE,
+    &read_write_multiple_registers::REQUEST,
+    &read_write_multiple_registers::RESPONSE,
+    &read_fifo_queue::REQUEST,
+    &read_fifo_queue::RESPONSE,
+    &encapsulated_interface::REQUEST,
+    &encapsulated_interface::RESPONSE,
     &keb::read_long_registers::REQUEST,
     &keb::read_long_registers::RESPONSE,
     &keb::write_long_registers::REQUEST,

@@ -101,7 +101,7 @@ impl Table {
     }
 
     /// Values in a sentence: the first few, in the notation of the table.
-    fn listed(&self, values: &[u32]) -> String {
+    pub(super) fn listed(&self, values: &[u32]) -> String {
         const SHOWN: usize = 6;
         let shown = values.iter().take(SHOWN).map(|value| match self.start.format {
             Format::HexAddress => hex_value(u64::from(*value), self.width),
