@@ -22,6 +22,10 @@ fn words(values: &[u16]) -> Vec<u32> {
     values.iter().copied().map(u32::from).collect()
 }
 
+fn switches(values: &[bool]) -> Vec<u32> {
+    values.iter().copied().map(u32::from).collect()
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -51,6 +55,34 @@ proptest! {
         let detail = read(&bytes, Direction::Request);
         prop_assert_eq!((detail.function, detail.start), (Some(16), Some(start)));
         prop_assert_eq!(detail.values, words(&values));
+    }
+
+    #[test]
+    fn requests_for_coils(unit in 1..=247u8, start in 0..=0xF000u16, quantity in 1..=2000u16, values in proptest::collection::vec(any::<bool>(), 1..=1968)) {
+        let mut client = ModbusRequest::new(unit, ModbusProto::Rtu);
+        let mut bytes = Vec::new();
+        for function in [1, 2] {
+            bytes.clear();
+            match function {
+                1 => client.generate_get_coils(start, quantity, &mut bytes),
+                _ => client.generate_get_discretes(start, quantity, &mut bytes),
+            }.expect("a request");
+            let detail = read(&bytes, Direction::Request);
+            prop_assert_eq!((detail.unit, detail.function), (Some(unit), Some(function)));
+            prop_assert_eq!((detail.start, detail.count), (Some(start), Some(quantity.into())));
+        }
+
+        bytes.clear();
+        client.generate_set_coil(start, values[0], &mut bytes).expect("a request");
+        let detail = read(&bytes, Direction::Request);
+        prop_assert_eq!((detail.function, detail.start), (Some(5), Some(start)));
+        prop_assert_eq!(detail.values, switches(&values[..1]));
+
+        bytes.clear();
+        client.generate_set_coils_bulk(start, &values, &mut bytes).expect("a request");
+        let detail = read(&bytes, Direction::Request);
+        prop_assert_eq!((detail.function, detail.start), (Some(15), Some(start)));
+        prop_assert_eq!(detail.values, switches(&values));
     }
 
     /// A response of ours, random but for its length, is parsed to the values that we say it has.

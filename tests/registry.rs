@@ -5,9 +5,12 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use buslens::field::Direction;
-use buslens::modbus::{KINDS, OTHER_KINDS};
+use buslens::modbus::{DIALECTS, KINDS, OTHER_KINDS};
 use buslens::tool::examples::EXAMPLES;
 use buslens::tool::{Options, Verdict, decode};
+
+/// Files below `src/modbus` that are no function code.
+const SHARED: &[&str] = &["bare", "choice", "coils", "dialects", "file_records", "length", "registers"];
 
 #[test]
 fn every_function_code_file_is_listed() {
@@ -20,13 +23,24 @@ fn every_function_code_file_is_listed() {
             let path = entry.unwrap().path();
             let name = path.file_stem().unwrap().to_str().unwrap();
             let in_one_line = registry.contains(&format!("&{name}::RESPONSE"));
-            // Folders, the registry, and the shapes that function codes share.
-            if path.is_dir() || ["mod", "registers"].contains(&name) {
+            // Folders of their own kind, the registry, and what function codes share.
+            if ["mod", "keb"].contains(&name) || SHARED.contains(&name) {
                 continue;
             }
             let name = format!("{}{name}", folder.replace('/', "::"));
             assert!(listed(&name) == [true, true] || in_one_line, "{name} is in no registry");
         }
+    }
+}
+
+#[test]
+fn every_encapsulated_interface_is_listed() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/modbus/encapsulated_interface");
+    let registry = std::fs::read_to_string(source.join("mod.rs")).unwrap();
+    for entry in std::fs::read_dir(source).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_stem().unwrap().to_str().unwrap();
+        assert!(name == "mod" || registry.contains(&format!("&{name}::INTERFACE")), "{name} is not listed");
     }
 }
 
@@ -42,6 +56,18 @@ fn kinds_are_told_apart() {
     for kind in KINDS.iter().chain(OTHER_KINDS) {
         assert!(keys.insert(kind.spec.key), "{} twice", kind.spec.key);
         assert!(!kind.spec.note.is_empty(), "{} has no note", kind.spec.key);
+    }
+}
+
+#[test]
+fn dialects_say_the_same_in_other_ways() {
+    let mut keys = BTreeSet::new();
+    for dialect in DIALECTS {
+        assert!(keys.insert(dialect.key), "{} twice", dialect.key);
+        for kind in dialect.kinds {
+            let standard = KINDS.iter().find(|standard| standard.spec.key == kind.spec.key).unwrap();
+            assert_eq!((kind.function, kind.direction), (standard.function, standard.direction));
+        }
     }
 }
 

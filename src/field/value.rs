@@ -203,6 +203,12 @@ fn shown_otherwise(raw: u64, width: usize, format: Format) -> Option<Message> {
             month = format!("{:02}", raw / 10 % 100),
             digit = raw % 10
         )),
+        Format::Reference(digit @ ('0' | '1')) => Some(message!(
+            "{hex}, number {one_based}, reference {reference}",
+            hex = hex_value(raw, width),
+            one_based = raw + 1,
+            reference = reference(digit, raw)
+        )),
         Format::Reference(digit) => Some(message!(
             "{hex}, register {one_based}, reference {reference}",
             hex = hex_value(raw, width),

@@ -14,6 +14,7 @@ pub static RESPONSE: Kind = Kind {
         .note("The server refuses. The function code is that of the request with 80h added.")
         .source(SOURCE),
     length: Length::Fixed(2),
+    serial_only: false,
     new: || Box::new(Exception { code: 1 }),
 };
 

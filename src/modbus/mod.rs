@@ -5,16 +5,39 @@
 //!
 //! Source: Modbus application protocol V1.1b3, sections 4 to 7; numbers are big-endian (4.2).
 
+mod bare;
+mod choice;
+mod coils;
+mod diagnostics;
+mod encapsulated_interface;
 mod exception;
+mod file_records;
+mod get_comm_event_counter;
+mod get_comm_event_log;
 pub mod keb;
+mod length;
+mod mask_write_register;
+mod read_coils;
+mod read_discrete_inputs;
+mod read_exception_status;
+mod read_fifo_queue;
+mod read_file_record;
 mod read_holding_registers;
 mod read_input_registers;
+mod read_write_multiple_registers;
 mod registers;
+mod report_server_id;
 mod unknown;
+mod write_file_record;
+mod write_multiple_coils;
 mod write_multiple_registers;
+mod write_single_coil;
 mod write_single_register;
 
-pub use registers::Table;
+use bare::Bare;
+use choice::Choice;
+pub use length::Length;
+pub use registers::{Layout, Table};
 
 use crate::field::{Direction, Message, Role, Spec};
 use crate::message;
@@ -22,14 +45,44 @@ use crate::walk::{Telegram, Walk, Walker};
 
 /// Every telegram that a function code has, requests before responses.
 pub static KINDS: &[&Kind] = &[
+    &read_coils::REQUEST,
+    &read_coils::RESPONSE,
+    &read_discrete_inputs::REQUEST,
+    &read_discrete_inputs::RESPONSE,
     &read_holding_registers::REQUEST,
     &read_holding_registers::RESPONSE,
     &read_input_registers::REQUEST,
     &read_input_registers::RESPONSE,
+    &write_single_coil::REQUEST,
+    &write_single_coil::RESPONSE,
     &write_single_register::REQUEST,
     &write_single_register::RESPONSE,
+    &read_exception_status::REQUEST,
+    &read_exception_status::RESPONSE,
+    &diagnostics::REQUEST,
+    &diagnostics::RESPONSE,
+    &get_comm_event_counter::REQUEST,
+    &get_comm_event_counter::RESPONSE,
+    &get_comm_event_log::REQUEST,
+    &get_comm_event_log::RESPONSE,
+    &write_multiple_coils::REQUEST,
+    &write_multiple_coils::RESPONSE,
     &write_multiple_registers::REQUEST,
     &write_multiple_registers::RESPONSE,
+    &report_server_id::REQUEST,
+    &report_server_id::RESPONSE,
+    &read_file_record::REQUEST,
+    &read_file_record::RESPONSE,
+    &write_file_record::REQUEST,
+    &write_file_record::RESPONSE,
+    &mask_write_register::REQUEST,
+    &mask_write_register::RESPONSE,
+    &read_write_multiple_registers::REQUEST,
+    &read_write_multiple_registers::RESPONSE,
+    &read_fifo_queue::REQUEST,
+    &read_fifo_queue::RESPONSE,
+    &encapsulated_interface::REQUEST,
+    &encapsulated_interface::RESPONSE,
     &keb::read_long_registers::REQUEST,
     &keb::read_long_registers::RESPONSE,
     &keb::write_long_registers::REQUEST,
@@ -48,7 +101,13 @@ pub static STANDARD: Dialect = Dialect {
 };
 
 /// The dialects that a device may speak, the standard first.
-pub static DIALECTS: &[&Dialect] = &[&STANDARD];
+pub static DIALECTS: &[&Dialect] = &[
+    &STANDARD,
+    &keb::dialects::NUMBER_FIRST,
+    &keb::dialects::NUMBER_8,
+    &keb::dialects::NO_BYTE_COUNT,
+    &keb::dialects::WORD_SWAP,
+];
 
 /// The bit that a server sets in the function code to refuse a request.
 pub const EXCEPTION: u8 = 0x80;
@@ -64,6 +123,8 @@ pub struct Kind {
     /// What the telegram is called, and where it is described.
     pub spec: Spec,
     pub length: Length,
+    /// Only units on a serial line know it: over TCP nobody does.
+    pub serial_only: bool,
     /// An empty body of this kind.
     pub new: fn() -> Box<dyn Body>,
 }
@@ -86,50 +147,19 @@ pub struct Dialect {
     pub kinds: &'static [&'static Kind],
 }
 
-/// How long a PDU is, told from its first bytes; the function code counts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Length {
-    Fixed(usize),
-    /// The byte at `at` counts the bytes after it, of which there are some, a multiple of `unit`.
-    Counted {
-        at: usize,
-        unit: usize,
-    },
-    /// Nothing tells.
-    Open,
-}
-
-impl Length {
-    /// The length that the PDU beginning with `bytes` must have, as far as its bytes tell.
-    pub fn of(self, bytes: &[u8]) -> Option<usize> {
-        match self {
-            Self::Fixed(length) => Some(length),
-            Self::Counted { at, .. } => bytes.get(at).map(|count| at + 1 + usize::from(*count)),
-            Self::Open => None,
-        }
-    }
-
-    /// Whether `bytes` can be a whole PDU of this length.
-    pub fn fits(self, bytes: &[u8]) -> bool {
-        match self {
-            Self::Fixed(length) => bytes.len() == length,
-            Self::Counted { at, unit } => {
-                let counted = bytes.len().saturating_sub(at + 1);
-                self.of(bytes) == Some(bytes.len()) && counted > 0 && counted.is_multiple_of(unit)
-            }
-            Self::Open => true,
-        }
-    }
-}
-
 /// What a function code's telegram can say beyond its fields.
 pub trait Body: Telegram {
     /// The telegram in one sentence; `who` is the server.
     fn meaning(&self, who: Server) -> Message;
 
-    /// The registers it is about, for exports, devices and pairing.
+    /// The registers or coils it is about, for exports, devices and pairing.
     fn access(&self) -> Option<Access<'_>> {
         None
+    }
+
+    /// Whether the request is for nothing without an answer: it changes nothing in the server.
+    fn only_reads(&self) -> bool {
+        self.access().is_some_and(|access| !access.write)
     }
 
     /// The code of a refusal.
@@ -171,16 +201,36 @@ impl Server {
     }
 }
 
-/// The registers that a telegram reads or writes.
+/// The registers or coils that a telegram reads or writes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Access<'a> {
+    /// Where they are; [`Table::holds_switches`] tells coils from registers.
     pub table: &'static Table,
     pub write: bool,
     /// Zero-based; a read response does not carry it.
     pub start: Option<u16>,
+    /// A response with coils carries whole bytes: where its request is not known, up to seven of
+    /// them may be more than were asked for.
     pub count: usize,
-    /// Empty where the telegram carries no values.
+    /// Empty where the telegram carries no values. Of coils they are 0 and 1.
     pub values: &'a [u32],
+    /// What is to be read as well, first register and number: function 23 writes, then reads.
+    pub reads: Option<(u16, usize)>,
+}
+
+impl<'a> Access<'a> {
+    pub fn read(table: &'static Table, start: Option<u16>, count: usize, values: &'a [u32]) -> Self {
+        Self { table, write: false, start, count, values, reads: None }
+    }
+
+    pub fn write(table: &'static Table, start: u16, count: usize, values: &'a [u32]) -> Self {
+        Self { table, write: true, start: Some(start), count, values, reads: None }
+    }
+
+    /// What a response to it answers with: the first one and how many.
+    pub fn asked(&self) -> Option<(u16, usize)> {
+        self.reads.or_else(|| Some((self.start?, self.count)))
+    }
 }
 
 /// A PDU: the function code and what belongs to it.

@@ -11,6 +11,7 @@ pub static REQUEST: Kind = Kind {
         .note("Asks for up to 125 registers that follow each other.")
         .source(SOURCE),
     length: Length::Fixed(5),
+    serial_only: false,
     new: || ReadRequest::of(&HOLDING_REGISTERS),
 };
 
@@ -21,6 +22,7 @@ pub static RESPONSE: Kind = Kind {
         .note("The registers asked for, in their order. Which ones they are only the request says.")
         .source(SOURCE),
     length: Length::Counted { at: 1, unit: 2 },
+    serial_only: false,
     new: || ReadResponse::of(&HOLDING_REGISTERS),
 };
 

@@ -11,6 +11,7 @@ pub static REQUEST: Kind = Kind {
         .note("Asks for up to 125 read-only registers. Many devices give the same as for function 3.")
         .source(SOURCE),
     length: Length::Fixed(5),
+    serial_only: false,
     new: || ReadRequest::of(&INPUT_REGISTERS),
 };
 
@@ -21,6 +22,7 @@ pub static RESPONSE: Kind = Kind {
         .note("The registers asked for, in their order. Which ones they are only the request says.")
         .source(SOURCE),
     length: Length::Counted { at: 1, unit: 2 },
+    serial_only: false,
     new: || ReadResponse::of(&INPUT_REGISTERS),
 };
 

@@ -12,8 +12,9 @@ pub struct Table {
     /// "holding register" and "holding registers".
     pub one: &'static str,
     pub many: &'static str,
-    /// Bytes of one register's value.
+    /// Bytes of one item of the values: a register, or eight coils.
     pub width: usize,
+    pub layout: Layout,
     pub start: Spec,
     /// How many can be read at once.
     pub read_quantity: Spec,
@@ -24,6 +25,22 @@ pub struct Table {
     pub value: Spec,
 }
 
+/// In which order and width a telegram gives its numbers.
+#[derive(Debug, PartialEq)]
+pub struct Layout {
+    /// The quantity comes before the starting address.
+    pub quantity_first: bool,
+    /// Bytes of the quantity.
+    pub quantity_width: usize,
+    /// The response to a read begins with a byte count.
+    pub byte_count: bool,
+}
+
+impl Layout {
+    /// As the standard lays out functions 3 and 16.
+    pub const STANDARD: Self = Self { quantity_first: false, quantity_width: 2, byte_count: true };
+}
+
 impl Table {
     /// A table of 16-bit registers as the standard has them; `digit` is that of the 4xxxx notation.
     pub const fn standard(one: &'static str, many: &'static str, digit: char) -> Self {
@@ -31,6 +48,7 @@ impl Table {
             one,
             many,
             width: 2,
+            layout: Layout::STANDARD,
             start: Spec::new("start", "Starting address")
                 .short("Start")
                 .role(Role::Address)
@@ -52,14 +70,19 @@ impl Table {
         }
     }
 
+    /// Whether it holds coils or discrete inputs, on or off, and not numbers.
+    pub fn holds_switches(&self) -> bool {
+        self.value.format == Format::Switches
+    }
+
     /// "3 holding registers".
-    fn amount(&self, count: usize) -> Message {
+    pub(super) fn amount(&self, count: usize) -> Message {
         let noun = if count == 1 { self.one } else { self.many };
         message!("{count} {registers}", count = count, registers = Argument::Term(noun))
     }
 
     /// An address in the notation of the table: `200` or `2000h`.
-    fn address(&self, address: u16) -> String {
+    pub(super) fn address(&self, address: u16) -> String {
         match self.start.format {
             Format::HexAddress => hex_value(address.into(), 2),
             _ => address.to_string(),
@@ -67,7 +90,7 @@ impl Table {
     }
 
     /// "200 to 202", or "200" where it is one.
-    fn range(&self, start: u16, count: usize) -> Message {
+    pub(super) fn range(&self, start: u16, count: usize) -> Message {
         let last = usize::from(start) + count.max(1) - 1;
         match u16::try_from(last) {
             Ok(last) if last != start => {
@@ -78,7 +101,7 @@ impl Table {
     }
 
     /// Values in a sentence: the first few, in the notation of the table.
-    fn listed(&self, values: &[u32]) -> String {
+    pub(super) fn listed(&self, values: &[u32]) -> String {
         const SHOWN: usize = 6;
         let shown = values.iter().take(SHOWN).map(|value| match self.start.format {
             Format::HexAddress => hex_value(u64::from(*value), self.width),
@@ -99,26 +122,74 @@ impl Table {
         walk
     }
 
+    /// Starting address and quantity, in the order of the layout.
+    fn walk_range<T>(
+        &'static self,
+        w: &mut dyn Walker,
+        start: &mut u16,
+        quantity: impl FnOnce(&mut dyn Walker) -> Walk<T>,
+    ) -> Walk<T> {
+        if self.layout.quantity_first {
+            let count = quantity(w)?;
+            w.u16(&self.start, start)?;
+            return Ok(count);
+        }
+        w.u16(&self.start, start)?;
+        quantity(w)
+    }
+
+    fn walk_quantity(&self, w: &mut dyn Walker, spec: &'static Spec, quantity: &mut u16) -> Walk {
+        let mut raw = u64::from(*quantity);
+        let walk = w.number(spec, self.layout.quantity_width, &mut raw);
+        // At most two bytes wide, so it fits.
+        *quantity = raw as u16;
+        walk
+    }
+
     /// Says so where `count` registers from `start` go past the last address.
-    fn check_end(&'static self, w: &mut dyn Walker, quantity: &'static Spec, start: u16, count: usize) {
+    pub(super) fn check_end(
+        &'static self,
+        w: &mut dyn Walker,
+        quantity: &'static Spec,
+        start: u16,
+        count: usize,
+    ) {
         if usize::from(start) + count > 0x1_0000 {
             w.remark(
                 quantity,
                 Severity::Error,
                 "address-overflow",
                 message!(
-                    "{count} registers from {start} go past the last address, 65535",
-                    count = count,
+                    "{registers} from {start} go past the last address, 65535",
+                    registers = self.amount(count),
                     start = start
+                ),
+            );
+        }
+    }
+
+    /// Says so where a response has not as many values as its request asks for.
+    fn check_asked(&'static self, w: &mut dyn Walker, asked: Option<(u16, usize)>, count: usize) {
+        if let Some((_, asked)) = asked
+            && count != asked
+        {
+            w.remark(
+                &self.values,
+                Severity::Warning,
+                "not-as-asked",
+                message!(
+                    "the request asks for {registers}, the response has {count}",
+                    registers = self.amount(asked),
+                    count = count
                 ),
             );
         }
     }
 }
 
-const QUANTITY: Spec = Spec::new("quantity", "Quantity").role(Role::Count);
-const BYTE_COUNT: Spec = Spec::new("byte_count", "Byte count").short("Bytes").role(Role::Count);
-const VALUES: Spec = Spec::new("values", "Values");
+pub(super) const QUANTITY: Spec = Spec::new("quantity", "Quantity").role(Role::Count);
+pub(super) const BYTE_COUNT: Spec = Spec::new("byte_count", "Byte count").short("Bytes").role(Role::Count);
+pub(super) const VALUES: Spec = Spec::new("values", "Values");
 
 /// Asks for registers: starting address (2 bytes), quantity (2 bytes).
 pub struct ReadRequest {
@@ -135,9 +206,11 @@ impl ReadRequest {
 
 impl Telegram for ReadRequest {
     fn walk(&mut self, w: &mut dyn Walker) -> Walk {
-        w.u16(&self.table.start, &mut self.start)?;
-        w.u16(&self.table.read_quantity, &mut self.quantity)?;
-        self.table.check_end(w, &self.table.read_quantity, self.start, self.quantity.into());
+        let table = self.table;
+        table.walk_range(w, &mut self.start, |w| {
+            table.walk_quantity(w, &table.read_quantity, &mut self.quantity)
+        })?;
+        table.check_end(w, &table.read_quantity, self.start, self.quantity.into());
         Ok(())
     }
 }
@@ -153,38 +226,49 @@ impl Body for ReadRequest {
     }
 
     fn access(&self) -> Option<Access<'_>> {
-        let start = Some(self.start);
-        Some(Access { table: self.table, write: false, start, count: self.quantity.into(), values: &[] })
+        Some(Access::read(self.table, Some(self.start), self.quantity.into(), &[]))
     }
 }
 
 /// Answers with registers: byte count (1 byte), then the values.
 pub struct ReadResponse {
     pub table: &'static Table,
-    /// From the request, where it is known.
-    pub start: Option<u16>,
+    /// What the request asks for, where it is known: the first register, and how many.
+    pub asked: Option<(u16, usize)>,
     pub values: Vec<u32>,
 }
 
 impl ReadResponse {
+    fn start(&self) -> Option<u16> {
+        self.asked.map(|(start, _)| start)
+    }
+
     pub fn of(table: &'static Table) -> Box<dyn Body> {
-        Box::new(Self { table, start: None, values: Vec::new() })
+        Box::new(Self { table, asked: None, values: Vec::new() })
     }
 }
 
 impl Telegram for ReadResponse {
     fn walk(&mut self, w: &mut dyn Walker) -> Walk {
-        let table = self.table;
-        let count = w.announce(&table.byte_count, 1, self.values.len(), table.width)?;
-        w.list(&table.values, &mut self.values, count, self.start.map(u64::from), |w, value| {
+        let (table, start) = (self.table, self.start());
+        let count = if table.layout.byte_count {
+            w.announce(&table.byte_count, 1, self.values.len(), table.width)?
+        } else {
+            // All that is left, where somebody knows how much that is.
+            let left = w.ahead(0, &mut |_| Ok(()));
+            left.map_or(self.values.len(), |left| (left as usize).div_ceil(table.width))
+        };
+        w.list(&table.values, &mut self.values, count, start.map(u64::from), |w, value| {
             table.walk_value(w, &table.value, value)
-        })
+        })?;
+        table.check_asked(w, self.asked, count);
+        Ok(())
     }
 }
 
 impl Body for ReadResponse {
     fn meaning(&self, who: Server) -> Message {
-        match self.start {
+        match self.start() {
             _ if self.values.is_empty() => {
                 message!("{who} answers without values", who = who.name())
             }
@@ -206,17 +290,11 @@ impl Body for ReadResponse {
     }
 
     fn access(&self) -> Option<Access<'_>> {
-        Some(Access {
-            table: self.table,
-            write: false,
-            start: self.start,
-            count: self.values.len(),
-            values: &self.values,
-        })
+        Some(Access::read(self.table, self.start(), self.values.len(), &self.values))
     }
 
     fn answer(&mut self, request: &Access<'_>) {
-        self.start = request.start;
+        self.asked = request.asked();
     }
 }
 
@@ -266,8 +344,7 @@ impl Body for WriteSingle {
     }
 
     fn access(&self) -> Option<Access<'_>> {
-        let start = Some(self.address);
-        Some(Access { table: self.table, write: true, start, count: 1, values: &self.value })
+        Some(Access::write(self.table, self.address, 1, &self.value))
     }
 }
 
@@ -287,8 +364,9 @@ impl WriteRequest {
 impl Telegram for WriteRequest {
     fn walk(&mut self, w: &mut dyn Walker) -> Walk {
         let table = self.table;
-        w.u16(&table.start, &mut self.start)?;
-        let quantity = w.announce(&table.write_quantity, 2, self.values.len(), 1)?;
+        let quantity = table.walk_range(w, &mut self.start, |w| {
+            w.announce(&table.write_quantity, table.layout.quantity_width, self.values.len(), 1)
+        })?;
         table.check_end(w, &table.write_quantity, self.start, quantity);
         w.derived(&table.byte_count, 1, Some((quantity * table.width) as u64))?;
         w.list(&table.values, &mut self.values, quantity, Some(self.start.into()), |w, value| {
@@ -309,13 +387,7 @@ impl Body for WriteRequest {
     }
 
     fn access(&self) -> Option<Access<'_>> {
-        Some(Access {
-            table: self.table,
-            write: true,
-            start: Some(self.start),
-            count: self.values.len(),
-            values: &self.values,
-        })
+        Some(Access::write(self.table, self.start, self.values.len(), &self.values))
     }
 }
 
@@ -334,9 +406,11 @@ impl WriteResponse {
 
 impl Telegram for WriteResponse {
     fn walk(&mut self, w: &mut dyn Walker) -> Walk {
-        w.u16(&self.table.start, &mut self.start)?;
-        w.u16(&self.table.write_quantity, &mut self.quantity)?;
-        self.table.check_end(w, &self.table.write_quantity, self.start, self.quantity.into());
+        let table = self.table;
+        table.walk_range(w, &mut self.start, |w| {
+            table.walk_quantity(w, &table.write_quantity, &mut self.quantity)
+        })?;
+        table.check_end(w, &table.write_quantity, self.start, self.quantity.into());
         Ok(())
     }
 }
@@ -352,7 +426,6 @@ impl Body for WriteResponse {
     }
 
     fn access(&self) -> Option<Access<'_>> {
-        let start = Some(self.start);
-        Some(Access { table: self.table, write: true, start, count: self.quantity.into(), values: &[] })
+        Some(Access::write(self.table, self.start, self.quantity.into(), &[]))
     }
 }

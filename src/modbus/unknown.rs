@@ -10,6 +10,7 @@ pub static REQUEST: Kind = Kind {
     direction: Direction::Request,
     spec: Spec::new("unknown_request", "Function not known").note(NOTE),
     length: Length::Open,
+    serial_only: false,
     new: || Box::new(Unknown { data: Vec::new() }),
 };
 
@@ -18,6 +19,7 @@ pub static RESPONSE: Kind = Kind {
     direction: Direction::Response,
     spec: Spec::new("unknown_response", "Function not known").note(NOTE),
     length: Length::Open,
+    serial_only: false,
     new: || Box::new(Unknown { data: Vec::new() }),
 };
 

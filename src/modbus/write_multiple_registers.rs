@@ -12,6 +12,7 @@ pub static REQUEST: Kind = Kind {
         .note("Writes up to 123 registers that follow each other.")
         .source(SOURCE),
     length: Length::Counted { at: 5, unit: 2 },
+    serial_only: false,
     new: || WriteRequest::of(&HOLDING_REGISTERS),
 };
 
@@ -22,6 +23,7 @@ pub static RESPONSE: Kind = Kind {
         .note("Repeats address and quantity once the registers are written.")
         .source(SOURCE),
     length: Length::Fixed(5),
+    serial_only: false,
     new: || WriteResponse::of(&HOLDING_REGISTERS),
 };
 

@@ -10,9 +10,10 @@ pub static REQUEST: Kind = Kind {
     function: 6,
     direction: Direction::Request,
     spec: Spec::new("write_single_register_request", "Write single register")
-        .note("Writes one register.")
+        .note("Writes one register: 16 bits. A 32-bit value needs function 16, or 101 on a KEB.")
         .source(SOURCE),
     length: Length::Fixed(5),
+    serial_only: false,
     new: || WriteSingle::of(&HOLDING_REGISTERS, Direction::Request),
 };
 
@@ -23,6 +24,7 @@ pub static RESPONSE: Kind = Kind {
         .note("Repeats the request once the register is written.")
         .source(SOURCE),
     length: Length::Fixed(5),
+    serial_only: false,
     new: || WriteSingle::of(&HOLDING_REGISTERS, Direction::Response),
 };
 

@@ -13,6 +13,18 @@ pub struct Example {
 
 pub static EXAMPLES: &[Example] = &[
     Example {
+        key: "read_coils",
+        label: "Read coils (1)",
+        text: "11 01 00 13 00 25 0E 84\n11 01 05 CD 6B B2 0E 1B 45 E6",
+        broken: false,
+    },
+    Example {
+        key: "read_discrete_inputs",
+        label: "Read discrete inputs (2)",
+        text: "11 02 00 C4 00 0A BB 60\n11 02 02 AC 01 C4 BB",
+        broken: false,
+    },
+    Example {
         key: "read_holding_registers",
         label: "Read holding registers (3)",
         text: "01 03 00 C8 00 03 84 35\n01 03 06 00 80 42 A4 F1 DE B0 F8",
@@ -25,15 +37,97 @@ pub static EXAMPLES: &[Example] = &[
         broken: false,
     },
     Example {
+        key: "write_single_coil",
+        label: "Write single coil (5)",
+        text: "11 05 00 AC FF 00 4E 8B\n11 05 00 AC FF 00 4E 8B",
+        broken: false,
+    },
+    Example {
         key: "write_single_register",
         label: "Write single register (6)",
         text: "05 06 0C 90 04 01 48 33\n05 06 0C 90 04 01 48 33",
         broken: false,
     },
     Example {
+        key: "read_exception_status",
+        label: "Read exception status (7)",
+        text: "11 07 4C 22\n11 07 6D E2 18",
+        broken: false,
+    },
+    Example {
+        key: "diagnostics",
+        label: "Diagnostics (8)",
+        text: "11 08 00 00 A5 37 D8 1D\n11 08 00 00 A5 37 D8 1D",
+        broken: false,
+    },
+    Example {
+        key: "get_comm_event_counter",
+        label: "Get comm event counter (11)",
+        text: "11 0B 4C 27\n11 0B FF FF 01 08 A6 E9",
+        broken: false,
+    },
+    Example {
+        key: "get_comm_event_log",
+        label: "Get comm event log (12)",
+        text: "11 0C 0D E5\n11 0C 0C 00 00 01 08 01 21 80 41 82 C0 04 00 43 F3",
+        broken: false,
+    },
+    Example {
+        key: "write_multiple_coils",
+        label: "Write multiple coils (15)",
+        text: "11 0F 00 13 00 0A 02 CD 01 BF 0B\n11 0F 00 13 00 0A 26 99",
+        broken: false,
+    },
+    Example {
         key: "write_multiple_registers",
         label: "Write multiple registers (16)",
         text: "01 10 00 D7 00 03 06 00 80 42 F6 E9 79 28 15\n01 10 00 D7 00 03 30 30",
+        broken: false,
+    },
+    Example {
+        key: "report_server_id",
+        label: "Report server ID (17)",
+        text: "11 11 CD EC\n11 11 08 B4 FF 56 31 2E 30 2E 33 41 A0",
+        broken: false,
+    },
+    Example {
+        key: "read_file_record",
+        label: "Read file record (20)",
+        text: "11 14 0E 06 00 04 00 01 00 02 06 00 03 00 09 00 02 F9 38\n\
+               11 14 0C 05 06 0D FE 00 20 05 06 33 CD 00 40 69 AD",
+        broken: false,
+    },
+    Example {
+        key: "write_file_record",
+        label: "Write file record (21)",
+        text: "11 15 0D 06 00 04 00 07 00 03 06 AF 04 BE 10 0D DB C7\n\
+               11 15 0D 06 00 04 00 07 00 03 06 AF 04 BE 10 0D DB C7",
+        broken: false,
+    },
+    Example {
+        key: "mask_write_register",
+        label: "Mask write register (22)",
+        text: "11 16 00 04 00 F2 00 25 66 E2\n11 16 00 04 00 F2 00 25 66 E2",
+        broken: false,
+    },
+    Example {
+        key: "read_write_multiple_registers",
+        label: "Read/write multiple registers (23)",
+        text: "11 17 00 03 00 06 00 0E 00 03 06 00 FF 00 FF 00 FF 4B 54\n\
+               11 17 0C 00 FE 0A CD 00 01 00 03 00 0D 00 FF 0D 75",
+        broken: false,
+    },
+    Example {
+        key: "read_fifo_queue",
+        label: "Read FIFO queue (24)",
+        text: "11 18 04 DE 07 87\n11 18 00 06 00 02 01 B8 12 84 18 8D",
+        broken: false,
+    },
+    Example {
+        key: "read_device_identification",
+        label: "Read device identification (43)",
+        text: "11 2B 0E 01 00 B1 B4\n\
+               11 2B 0E 01 01 00 00 03 00 07 42 75 73 6C 65 6E 73 01 02 42 31 02 04 56 31 2E 30 94 B5",
         broken: false,
     },
     Example {

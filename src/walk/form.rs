@@ -202,14 +202,19 @@ struct Show<'a> {
     path: Path,
     deviations: &'a Deviations,
     computed: &'a Deviations,
-    /// The number of the list item at hand.
-    number: Option<Numbering>,
+    /// The first number of the list at hand, and the index of its item.
+    number: Option<(Option<u64>, u64)>,
 }
 
 impl Show<'_> {
     fn entry(&mut self, spec: &'static Spec, content: Content) {
         let path = self.path.join(spec.key);
-        self.level.push(Entry { spec, number: self.number.take(), path, content });
+        let number = self.numbering(spec);
+        self.level.push(Entry { spec, number, path, content });
+    }
+
+    fn numbering(&mut self, spec: &'static Spec) -> Option<Numbering> {
+        self.number.take().map(|(first, index)| Numbering::new(first, index * spec.step))
     }
 
     fn computed(&mut self, spec: &'static Spec, width: usize) {
@@ -279,7 +284,7 @@ impl Walker for Show<'_> {
         let mut shown = Vec::new();
         for index in 0..items.len() {
             let depth = self.path.enter_item(index);
-            self.number = Some(Numbering::new(first, index as u64));
+            self.number = Some((first, index as u64));
             shown.push(self.nested(|show| items.walk(index, show))?);
             self.path.leave(depth);
         }
@@ -290,7 +295,7 @@ impl Walker for Show<'_> {
 
     fn within(&mut self, spec: &'static Spec, part: Part<'_>) -> Walk {
         let path = self.path.join(spec.key);
-        let number = self.number.take();
+        let number = self.numbering(spec);
         let depth = self.path.enter(spec.key);
         let entries = self.nested(|show| part(show))?;
         self.path.leave(depth);
