@@ -39,7 +39,7 @@ fn check_broadcast(w: &mut dyn Walker, unit: u8, pdu: &Pdu) {
     if unit != BROADCAST {
         return;
     }
-    let reads = pdu.body.access().is_some_and(|access| !access.write);
+    let reads = pdu.body.only_reads();
     if pdu.direction == Direction::Response {
         w.remark(
             &UNIT,

@@ -8,7 +8,7 @@
 
 use super::modbus_serial::{PduFit, answer, check_length, pdu_fit};
 use super::{Content, Fit, Frame, Protocol, Settings, Speaker, Verdict};
-use crate::field::{Direction, Message, Name, Role, Spec};
+use crate::field::{Direction, Message, Name, Role, Severity, Spec};
 use crate::message;
 use crate::modbus::{Dialect, LONGEST_PDU, Pdu, Server};
 use crate::walk::{Telegram, Walk, Walker};
@@ -131,6 +131,14 @@ impl Telegram for Tcp {
         w.derived(&LENGTH, 2, length)?;
         w.u8(&UNIT, unit)?;
         let walk = pdu.walk(w);
+        if pdu.kind.serial_only {
+            w.remark(
+                &UNIT,
+                Severity::Warning,
+                "serial-only",
+                message!("this function is for serial lines: a TCP server need not know it"),
+            );
+        }
         let length = w.mark() - start;
         check_length(w, &LENGTH, length, LONGEST);
         walk

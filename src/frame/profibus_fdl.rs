@@ -290,7 +290,7 @@ impl Fdl {
         ];
         for (address, spec, sap, chooses) in points {
             match extended(address) {
-                true if direction == chooses => *sap = w.select(spec, 1, (*sap).into(), &services)? as u8,
+                true if direction == chooses => w.choose(spec, 1, sap, &services)?,
                 true => w.u8(spec, sap)?,
                 false => {}
             }
@@ -442,7 +442,7 @@ fn exchange(bytes: &[u8]) -> Option<u64> {
 impl Telegram for Fdl {
     fn walk(&mut self, w: &mut dyn Walker) -> Walk {
         // One byte wide, so it fits.
-        self.start = w.select(&START, 1, self.start.into(), &|start| format_of(start as u8))? as u8;
+        w.choose(&START, 1, &mut self.start, &|start| format_of(start as u8))?;
         match self.start {
             SD1 | SD3 => self.fixed(w),
             SD2 => self.variable(w),

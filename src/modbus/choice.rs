@@ -19,7 +19,7 @@ impl Choice {
     }
 
     pub fn walk(&'static self, w: &mut dyn Walker, value: &mut u16) -> Walk {
-        select(w, &self.spec, self.width, value, &|raw| {
+        w.choose(&self.spec, self.width, value, &|raw| {
             let known = self.names.iter().position(|name| name.value == raw);
             known.and_then(|known| self.options.get(known)).unwrap_or(&UNDEFINED)
         })?;
@@ -48,27 +48,6 @@ impl Choice {
     pub fn name(&self, value: u16) -> Option<&'static str> {
         self.spec.name(value.into()).map(|name| name.label)
     }
-}
-
-/// A selector of at most two bytes.
-pub fn select(
-    w: &mut dyn Walker,
-    spec: &'static Spec,
-    width: usize,
-    value: &mut u16,
-    choices: &dyn Fn(u64) -> &'static Spec,
-) -> Walk {
-    let mut raw = u64::from(*value);
-    // Where the telegram ends within it, a selector forgets the half that is there; a number does not.
-    let half = width == 2 && w.ahead(0, &mut |_| Ok(())) == Some(1);
-    let walk = if half {
-        w.number(spec, width, &mut raw)
-    } else {
-        w.select(spec, width, raw, choices).map(|chosen| raw = chosen)
-    };
-    // At most two bytes wide, so it fits.
-    *value = raw as u16;
-    walk
 }
 
 static UNDEFINED: Spec = Spec::new("undefined", "not defined");

@@ -3,7 +3,6 @@
 //! Layout of request and response: sub-function (2 bytes), data (2 bytes; with sub-function 0 any
 //! number of bytes).
 
-use super::choice::select;
 use super::{Body, Choice, Kind, Length, Server};
 use crate::field::{Argument, Bits, Direction, Format, Message, Name, Role, Spec, hex};
 use crate::message;
@@ -69,7 +68,7 @@ impl Diagnostics {
 
 impl Telegram for Diagnostics {
     fn walk(&mut self, w: &mut dyn Walker) -> Walk {
-        select(w, &SUB_FUNCTION, 2, &mut self.sub_function, &|number| &sub_function(number).spec)?;
+        w.choose(&SUB_FUNCTION, 2, &mut self.sub_function, &|number| &sub_function(number).spec)?;
         match self.data() {
             Data::Bytes => w.bytes(&DATA, &mut self.bytes, None),
             Data::Number(spec) => w.u16(spec, &mut self.number),

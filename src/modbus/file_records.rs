@@ -4,7 +4,7 @@
 use super::registers::BYTE_COUNT;
 use crate::field::{Format, Message, Role, Severity, Spec};
 use crate::message;
-use crate::walk::{Items, Stop, Walk, Walker};
+use crate::walk::{Walk, Walker};
 
 /// Where records stand: reference type (1 byte, always 6), file number (2), record number (2) and
 /// record length (2), which counts records of 16 bits.
@@ -82,53 +82,13 @@ pub fn walk_parts<T: Default>(
     parts: &mut Vec<T>,
     each: Each<T>,
 ) -> Walk<Option<u64>> {
-    let mut parts = Parts { part, parts, each, cut: false };
-    let length = w.ahead(1, &mut |w| parts.walk_list(w, list));
+    let mut walk = |w: &mut dyn Walker| {
+        w.list(list, parts, None, Some(1), |w, one| w.within(part, &mut |w| each(one, w)))
+    };
+    let length = w.ahead(1, &mut walk);
     w.derived(&PARTS_BYTE_COUNT, 1, length)?;
-    parts.walk_list(w, list)?;
+    walk(w)?;
     Ok(length)
-}
-
-/// A list that the reader cannot count before it has read it. To the reader it has one item, which
-/// goes on to the end; to all others it has the items that there are.
-struct Parts<'a, T> {
-    part: &'static Spec,
-    parts: &'a mut Vec<T>,
-    each: Each<T>,
-    /// The telegram ended within a part, which says so itself.
-    cut: bool,
-}
-
-impl<T: Default> Parts<'_, T> {
-    fn walk_list(&mut self, w: &mut dyn Walker, list: &'static Spec) -> Walk {
-        w.items(list, self, 1, Some(1))?;
-        if self.cut { Err(Stop) } else { Ok(()) }
-    }
-
-    fn walk_part(&mut self, index: usize, w: &mut dyn Walker) {
-        let Some(part) = self.parts.get_mut(index) else { return };
-        self.cut |= w.within(self.part, &mut |w| (self.each)(part, w)).is_err();
-    }
-}
-
-impl<T: Default> Items for Parts<'_, T> {
-    fn len(&self) -> usize {
-        self.parts.len()
-    }
-
-    fn resize(&mut self, count: usize) {
-        self.parts.resize_with(count, T::default);
-    }
-
-    fn walk(&mut self, index: usize, w: &mut dyn Walker) -> Walk {
-        self.walk_part(index, w);
-        // Only the reader has something left here.
-        while !self.cut && w.ahead(0, &mut |_| Ok(())).is_some_and(|left| left > 0) {
-            self.parts.push(T::default());
-            self.walk_part(self.parts.len() - 1, w);
-        }
-        Ok(())
-    }
 }
 
 /// Records of a file.

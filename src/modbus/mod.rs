@@ -265,10 +265,11 @@ impl Pdu {
 impl Telegram for Pdu {
     fn walk(&mut self, w: &mut dyn Walker) -> Walk {
         let (direction, dialect) = (self.direction, self.dialect);
-        let function = w.select(&FUNCTION, 1, self.function.into(), &|function| {
+        let mut function = self.function;
+        w.choose(&FUNCTION, 1, &mut function, &|function| {
             // One byte wide, so it fits.
             &Self::kind(function as u8, direction, dialect).spec
-        })? as u8;
+        })?;
         if function != self.function {
             *self = Self::expect(function, direction, dialect);
         }

@@ -56,7 +56,7 @@ impl Default for Part {
 impl Part {
     fn walk(&mut self, w: &mut dyn Walker) -> Walk {
         self.place.walk(w, &LENGTH)?;
-        let (count, first) = (self.place.length.into(), Some(self.place.record.into()));
+        let (count, first) = (usize::from(self.place.length), Some(self.place.record.into()));
         w.list(&RECORD_DATA, &mut self.records, count, first, |w, record| w.u16(&RECORD_VALUE, record))
     }
 }

@@ -43,11 +43,9 @@ pub fn layout(bytes: &[u8]) -> Layout {
 
 impl Telegram for Configuration {
     fn walk(&mut self, w: &mut dyn Walker) -> Walk {
-        let there = w.ahead(0, &mut |_| Ok(())).map_or(self.bytes.len(), |left| left as usize);
         let keb = self.keb;
         let mut modules = Modules::default();
-        // There is one module at least.
-        w.list(&MODULES, &mut self.bytes, there.max(1), Some(1), |w, byte| {
+        w.list(&MODULES, &mut self.bytes, None, Some(1), |w, byte| {
             let spec = modules.next();
             w.u8(spec, byte)?;
             modules.take(*byte);

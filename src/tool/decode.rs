@@ -1,8 +1,12 @@
+use std::cmp::Ordering;
+use std::mem::discriminant;
+
 use crate::device::{self, Profile};
 use crate::dialogue::{self, Candidate, Certainty, Choice, Guess, Pairing};
-use crate::field::{Direction, Span};
+use crate::field::{self, Direction, Span};
 use crate::frame::{self, Content, Frame, Protocol, Speaker, Verdict, modbus_ascii};
 use crate::message;
+use crate::modbus::Pdu;
 use crate::profibus::Service;
 use crate::profibus::jobs::{self, Jobs, Step};
 use crate::text::{self, Line, Style};
@@ -160,7 +164,7 @@ impl Report {
     /// How every telegram of the kind of telegram `index` is laid out.
     pub fn layout(&self, index: usize) -> Vec<guide::Row> {
         let telegram = self.telegrams.get(index);
-        telegram.map_or(Vec::new(), |_| guide::guide(self.expected(index).as_mut()))
+        telegram.map_or(Vec::new(), |_| guide::guide(self.read(index).0.as_mut()))
     }
 
     /// The protocol of each line.
@@ -232,17 +236,55 @@ impl Report {
             Speaker::Always(direction) => dialogue::told(Some(direction)),
             Speaker::Turns(leaning) => dialogue::leaning(leaning(bytes)),
         };
-        match asked {
-            Some((index, asked)) if guess.certainty == Certainty::Open && asked == bytes => Guess {
-                direction: Direction::Response,
-                certainty: Certainty::Likely,
-                reason: message!(
-                    "it repeats telegram {n}, as a response of this function does",
-                    n = index + 1
-                ),
-            },
-            _ => guess,
+        if guess.certainty != Certainty::Open {
+            return guess;
         }
+        let Some((index, asked)) = asked.filter(|_| awaited) else { return guess };
+        let n = index + 1;
+        // Both directions have such a length: the one that makes fewer mistakes is meant.
+        let mistakes = |direction| self.mistakes(protocol, bytes, direction, index);
+        let (direction, reason) = match mistakes(Direction::Response).cmp(&mistakes(Direction::Request)) {
+            Ordering::Less => {
+                (Direction::Response, message!("as a response to telegram {n} it is right", n = n))
+            }
+            Ordering::Greater => {
+                (Direction::Request, message!("it does not fit as a response to telegram {n}", n = n))
+            }
+            Ordering::Equal if asked == bytes => (
+                Direction::Response,
+                message!("it repeats telegram {n}, as a response of this function does", n = n),
+            ),
+            Ordering::Equal if !self.echoes(protocol, bytes) => {
+                (Direction::Response, message!("telegram {n} waits for such a response", n = n))
+            }
+            Ordering::Equal => return guess,
+        };
+        Guess { direction, certainty: Certainty::Likely, reason }
+    }
+
+    /// Whether request and response of the function are laid out alike.
+    fn echoes(&self, protocol: &Protocol, bytes: &[u8]) -> bool {
+        let Speaker::Pdu(inside) = protocol.speaker else { return false };
+        let dialect = self.options.settings.frame.dialect;
+        inside(bytes).0.first().is_none_or(|function| {
+            let [request, response] = [Direction::Request, Direction::Response]
+                .map(|direction| discriminant(&Pdu::kind(*function, direction, dialect).length));
+            request == response
+        })
+    }
+
+    /// How many problems `bytes` would have as a telegram of `direction`; a response answers
+    /// telegram `request`.
+    fn mistakes(&self, protocol: &Protocol, bytes: &[u8], direction: Direction, request: usize) -> usize {
+        let settings = &self.options.settings.frame;
+        let mut frame = (protocol.expect)(bytes, direction, settings);
+        if direction == Direction::Response {
+            let asked = &self.telegrams[request].line.bytes;
+            let mut request = (protocol.expect)(asked, Direction::Request, settings);
+            walk::read(request.as_mut(), asked);
+            frame.answer(&request.content());
+        }
+        field::problems(&walk::read(frame.as_mut(), bytes).fields).len()
     }
 
     /// A frame of the kind of telegram `index` with nothing read into it yet.

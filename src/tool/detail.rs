@@ -113,7 +113,8 @@ impl Report {
 impl Detail {
     /// Asks the device's table for the registers of a PDU.
     fn ask_registers(&mut self, profile: &'static Profile, settings: &device::Settings, pdu: &Pdu) {
-        let Some(access) = pdu.body.access().filter(|access| access.start.is_some()) else { return };
+        let registers = |access: &Access<'_>| access.start.is_some() && !access.table.holds_switches();
+        let Some(access) = pdu.body.access().filter(registers) else { return };
         let values = big_endian(&access);
         self.device = profile.registers(&device_registers(&access, &values, &self.fields), settings);
     }
@@ -219,6 +220,7 @@ impl Detail {
         self.function = function.map(|function| function & !EXCEPTION);
         self.exception = pdu.body.exception();
         self.start = access.and_then(|access| access.start);
+        self.coils = access.is_some_and(|access| access.table.holds_switches());
         self.count = access.map(|access| access.count);
         self.values = access.map_or(Vec::new(), |access| access.values.to_vec());
     }

@@ -252,11 +252,11 @@ impl Walker for Show<'_> {
         &mut self,
         spec: &'static Spec,
         _: usize,
-        current: u64,
+        raw: &mut u64,
         choices: &dyn Fn(u64) -> &'static Spec,
-    ) -> Walk<u64> {
-        self.entry(spec, Content::Choice { raw: current, chosen: choices(current) });
-        Ok(current)
+    ) -> Walk {
+        self.entry(spec, Content::Choice { raw: *raw, chosen: choices(*raw) });
+        Ok(())
     }
 
     fn announce(&mut self, spec: &'static Spec, width: usize, items: usize, _: usize) -> Walk<usize> {
@@ -278,7 +278,13 @@ impl Walker for Show<'_> {
         Ok(())
     }
 
-    fn items(&mut self, spec: &'static Spec, items: &mut dyn Items, _: usize, first: Option<u64>) -> Walk {
+    fn items(
+        &mut self,
+        spec: &'static Spec,
+        items: &mut dyn Items,
+        _: Option<usize>,
+        first: Option<u64>,
+    ) -> Walk {
         let path = self.path.join(spec.key);
         let depth = self.path.enter(spec.key);
         let mut shown = Vec::new();
@@ -385,13 +391,13 @@ impl Walker for Fill<'_> {
         &mut self,
         spec: &'static Spec,
         _: usize,
-        current: u64,
+        raw: &mut u64,
         _: &dyn Fn(u64) -> &'static Spec,
-    ) -> Walk<u64> {
-        match self.content(spec) {
-            Some(Content::Choice { raw, .. }) => Ok(*raw),
-            _ => Ok(current),
+    ) -> Walk {
+        if let Some(Content::Choice { raw: chosen, .. }) = self.content(spec) {
+            *raw = *chosen;
         }
+        Ok(())
     }
 
     fn announce(&mut self, spec: &'static Spec, _: usize, items: usize, _: usize) -> Walk<usize> {
@@ -416,7 +422,13 @@ impl Walker for Fill<'_> {
         Ok(())
     }
 
-    fn items(&mut self, spec: &'static Spec, items: &mut dyn Items, _: usize, _: Option<u64>) -> Walk {
+    fn items(
+        &mut self,
+        spec: &'static Spec,
+        items: &mut dyn Items,
+        _: Option<usize>,
+        _: Option<u64>,
+    ) -> Walk {
         let Some(Content::List { items: entered }) = self.content(spec) else { return Ok(()) };
         items.resize(entered.len());
         let depth = self.path.enter(spec.key);

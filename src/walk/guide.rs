@@ -73,11 +73,11 @@ impl Walker for Guide {
         &mut self,
         spec: &'static Spec,
         width: usize,
-        current: u64,
+        raw: &mut u64,
         choices: &dyn Fn(u64) -> &'static Spec,
-    ) -> Walk<u64> {
-        self.fixed(spec, width, Some((current, choices(current))));
-        Ok(current)
+    ) -> Walk {
+        self.fixed(spec, width, Some((*raw, choices(*raw))));
+        Ok(())
     }
 
     fn announce(&mut self, spec: &'static Spec, width: usize, _: usize, _: usize) -> Walk<usize> {
@@ -96,7 +96,13 @@ impl Walker for Guide {
         Ok(())
     }
 
-    fn items(&mut self, spec: &'static Spec, items: &mut dyn Items, _: usize, _: Option<u64>) -> Walk {
+    fn items(
+        &mut self,
+        spec: &'static Spec,
+        items: &mut dyn Items,
+        _: Option<usize>,
+        _: Option<u64>,
+    ) -> Walk {
         items.resize(1);
         self.group(spec, |guide| {
             let repeats = std::mem::replace(&mut guide.repeats, true);

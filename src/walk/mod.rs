@@ -57,15 +57,15 @@ pub trait Walker {
     /// A number of `width` bytes.
     fn number(&mut self, spec: &'static Spec, width: usize, raw: &mut u64) -> Walk;
 
-    /// A number that chooses what follows, such as a function code: ours to write, the wire's to
-    /// read. `choices` names each number's choice. Returns the number that counts.
+    /// A number that chooses what follows, such as a function code. `choices` names each number's
+    /// choice.
     fn select(
         &mut self,
         spec: &'static Spec,
         width: usize,
-        current: u64,
+        raw: &mut u64,
         choices: &dyn Fn(u64) -> &'static Spec,
-    ) -> Walk<u64>;
+    ) -> Walk;
 
     /// How many items follow, written as a number of `width` bytes that counts `size` for each
     /// item (a byte count over registers: 2). Ours to write, the wire's to read. Returns the
@@ -78,9 +78,15 @@ pub trait Walker {
     /// `count` bytes that are no numbers; `None` for all up to the end of the window.
     fn bytes(&mut self, spec: &'static Spec, bytes: &mut Vec<u8>, count: Option<usize>) -> Walk;
 
-    /// `count` items of the same kind; `first` is the number of the first one, if that is known.
-    fn items(&mut self, spec: &'static Spec, items: &mut dyn Items, count: usize, first: Option<u64>)
-    -> Walk;
+    /// `count` items of the same kind, or, for `None`, one and as many more as there are up to the
+    /// end of the window; `first` is the number of the first one, if that is known.
+    fn items(
+        &mut self,
+        spec: &'static Spec,
+        items: &mut dyn Items,
+        count: Option<usize>,
+        first: Option<u64>,
+    ) -> Walk;
 
     /// Fields that belong together under one name.
     fn within(&mut self, spec: &'static Spec, part: Part<'_>) -> Walk;
@@ -136,16 +142,31 @@ impl<'a> dyn Walker + 'a {
         self.sized(spec, 4, value)
     }
 
-    /// `count` items, each walked by `each`.
+    /// `count` items (or `None`, see [`items`](Self::items)), each walked by `each`.
     pub fn list<T: Default>(
         &mut self,
         spec: &'static Spec,
         items: &mut Vec<T>,
-        count: usize,
+        count: impl Into<Option<usize>>,
         first: Option<u64>,
         each: impl FnMut(&mut dyn Walker, &mut T) -> Walk,
     ) -> Walk {
-        self.items(spec, &mut List { items, each }, count, first)
+        self.items(spec, &mut List { items, each }, count.into(), first)
+    }
+
+    /// [`select`](Self::select) over a number of this type.
+    pub fn choose<T: Copy + Into<u64> + TryFrom<u64>>(
+        &mut self,
+        spec: &'static Spec,
+        width: usize,
+        value: &mut T,
+        choices: &dyn Fn(u64) -> &'static Spec,
+    ) -> Walk {
+        let mut raw = (*value).into();
+        let walk = self.select(spec, width, &mut raw, choices);
+        // A walker never sets more than `width` bytes, so this cannot fail.
+        *value = T::try_from(raw).unwrap_or(*value);
+        walk
     }
 
     fn sized<T: Copy + Into<u64> + TryFrom<u64>>(

@@ -188,15 +188,14 @@ impl Walker for Reader<'_> {
         &mut self,
         spec: &'static Spec,
         width: usize,
-        _: u64,
+        raw: &mut u64,
         choices: &dyn Fn(u64) -> &'static Spec,
-    ) -> Walk<u64> {
-        let mut raw = 0;
-        self.take(spec, width, &mut raw)?;
+    ) -> Walk {
+        self.take(spec, width, raw)?;
         if let Some(field) = self.fields.last_mut() {
-            field.value = Value::Selector { raw, width, chosen: choices(raw) };
+            field.value = Value::Selector { raw: *raw, width, chosen: choices(*raw) };
         }
-        Ok(raw)
+        Ok(())
     }
 
     fn announce(&mut self, spec: &'static Spec, width: usize, _: usize, size: usize) -> Walk<usize> {
@@ -255,14 +254,18 @@ impl Walker for Reader<'_> {
         &mut self,
         spec: &'static Spec,
         items: &mut dyn Items,
-        count: usize,
+        count: Option<usize>,
         first: Option<u64>,
     ) -> Walk {
         let mut there = 0;
         let walk = self.group(spec, |reader| {
             // Grows with the bytes that are there, not with what is announced.
             items.resize(0);
-            while there < count && reader.position < reader.end {
+            let more = |there, left: bool| match count {
+                Some(count) => there < count && left,
+                None => there == 0 || left,
+            };
+            while more(there, reader.position < reader.end) {
                 items.resize(there + 1);
                 let depth = reader.path.enter_item(there);
                 let walk = items.walk(there, reader);
@@ -270,13 +273,13 @@ impl Walker for Reader<'_> {
                 walk?;
                 there += 1;
             }
-            if there < count { Err(Stop) } else { Ok(()) }
+            if count.is_some_and(|count| there < count) { Err(Stop) } else { Ok(()) }
         });
         let Some(list) = self.fields.last_mut() else { return walk };
         for (offset, item) in (0..).zip(&mut list.children) {
             item.number = Some(Numbering::new(first, offset * item.spec.step));
         }
-        if walk.is_err() {
+        if let (true, Some(count)) = (walk.is_err(), count) {
             let message = message!(
                 "{label}: {count} announced, {there} there; the telegram ends before the list does",
                 label = Argument::Term(spec.label),

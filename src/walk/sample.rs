@@ -31,14 +31,8 @@ impl Walker for Sampler<'_> {
         Ok(())
     }
 
-    fn select(
-        &mut self,
-        _: &'static Spec,
-        _: usize,
-        current: u64,
-        _: &dyn Fn(u64) -> &'static Spec,
-    ) -> Walk<u64> {
-        Ok(current)
+    fn select(&mut self, _: &'static Spec, _: usize, _: &mut u64, _: &dyn Fn(u64) -> &'static Spec) -> Walk {
+        Ok(())
     }
 
     fn announce(&mut self, spec: &'static Spec, _: usize, _: usize, size: usize) -> Walk<usize> {
@@ -57,9 +51,15 @@ impl Walker for Sampler<'_> {
         Ok(())
     }
 
-    fn items(&mut self, _: &'static Spec, items: &mut dyn Items, count: usize, _: Option<u64>) -> Walk {
-        items.resize(count);
-        (0..count).try_for_each(|index| items.walk(index, self))
+    fn items(
+        &mut self,
+        _: &'static Spec,
+        items: &mut dyn Items,
+        count: Option<usize>,
+        _: Option<u64>,
+    ) -> Walk {
+        items.resize(count.unwrap_or(items.len()));
+        (0..items.len()).try_for_each(|index| items.walk(index, self))
     }
 
     fn within(&mut self, _: &'static Spec, part: Part<'_>) -> Walk {

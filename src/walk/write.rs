@@ -59,11 +59,11 @@ impl Walker for Writer<'_> {
         &mut self,
         spec: &'static Spec,
         width: usize,
-        current: u64,
+        raw: &mut u64,
         _: &dyn Fn(u64) -> &'static Spec,
-    ) -> Walk<u64> {
-        self.put(spec, width, current);
-        Ok(current)
+    ) -> Walk {
+        self.put(spec, width, *raw);
+        Ok(())
     }
 
     fn announce(&mut self, spec: &'static Spec, width: usize, items: usize, size: usize) -> Walk<usize> {
@@ -81,7 +81,13 @@ impl Walker for Writer<'_> {
         Ok(())
     }
 
-    fn items(&mut self, spec: &'static Spec, items: &mut dyn Items, _: usize, _: Option<u64>) -> Walk {
+    fn items(
+        &mut self,
+        spec: &'static Spec,
+        items: &mut dyn Items,
+        _: Option<usize>,
+        _: Option<u64>,
+    ) -> Walk {
         let depth = self.path.enter(spec.key);
         for index in 0..items.len() {
             let depth = self.path.enter_item(index);

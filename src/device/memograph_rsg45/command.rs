@@ -72,14 +72,14 @@ impl Command {
 impl Telegram for Command {
     fn walk(&mut self, w: &mut dyn Walker) -> Walk {
         let functions = self.functions;
-        let code = w.select(&functions.spec, 1, self.code.into(), &|code| {
+        let mut code = self.code;
+        w.choose(&functions.spec, 1, &mut code, &|code| {
             functions.find(code).map_or(&UNKNOWN, |function| &function.spec)
         })?;
-        if code != u64::from(self.code) {
-            // One byte wide, so it fits.
-            *self = Self::new(functions, code as u8);
+        if code != self.code {
+            *self = Self::new(functions, code);
         }
-        let Some(function) = functions.find(code) else {
+        let Some(function) = functions.find(code.into()) else {
             let message = message!("function {code} does not exist here", code = code);
             w.remark(&functions.spec, Severity::Error, "unknown-function", message);
             return w.bytes(&UNKNOWN, &mut self.text, None);

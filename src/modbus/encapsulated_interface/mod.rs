@@ -82,12 +82,12 @@ impl Encapsulated {
 
 impl Telegram for Encapsulated {
     fn walk(&mut self, w: &mut dyn Walker) -> Walk {
-        let number = w.select(&TYPE, 1, self.interface.into(), &|number| &interface(number).spec)?;
-        if number != u64::from(self.interface) {
-            // One byte wide, so it fits.
-            self.interface = number as u8;
-            self.body = (interface(number).carried(self.direction).new)();
+        let before = self.interface;
+        let walk = w.choose(&TYPE, 1, &mut self.interface, &|number| &interface(number).spec);
+        if self.interface != before {
+            self.body = (interface(self.interface.into()).carried(self.direction).new)();
         }
+        walk?;
         self.body.walk(w)
     }
 }
