@@ -27,6 +27,13 @@ impl Message {
         Self { template, arguments: Vec::new() }
     }
 
+    /// Adds an argument; used by [`message!`](crate::message). Not inlined: it is called from
+    /// hundreds of places.
+    #[inline(never)]
+    pub fn put(&mut self, name: &'static str, value: impl Into<Argument>) {
+        self.arguments.push((name, value.into()));
+    }
+
     /// "1 byte", "3 bytes".
     pub fn bytes(count: usize) -> Self {
         match count {
@@ -103,12 +110,14 @@ impl From<Message> for Argument {
 /// The template is a literal: a test collects all of them from the source.
 #[macro_export]
 macro_rules! message {
-    ($template:literal $(, $name:ident = $value:expr)* $(,)?) => {
-        $crate::field::Message {
-            template: $template,
-            arguments: vec![$((stringify!($name), $crate::field::Argument::from($value))),*],
-        }
+    ($template:literal $(,)?) => {
+        $crate::field::Message::term($template)
     };
+    ($template:literal, $($name:ident = $value:expr),+ $(,)?) => {{
+        let mut message = $crate::field::Message::term($template);
+        $(message.put(stringify!($name), $value);)+
+        message
+    }};
 }
 
 #[cfg(test)]

@@ -128,16 +128,19 @@ pub fn number_text(raw: u64, width: usize, format: Format) -> String {
 }
 
 /// The IEEE 754 number of `width` bytes, as short as it can be told apart from its neighbours.
+///
+/// The standard library does the same, for 20 kB in the page.
 pub fn float(raw: u64, width: usize) -> String {
+    let mut buffer = [0; lexical_core::BUFFER_SIZE];
     // The shortest digits of a number depend on how wide it is.
-    let (text, plain) = if width == 4 {
+    let (text, finite) = if width == 4 {
         let value = f32::from_bits(raw as u32);
-        (format!("{value:?}"), value.is_finite())
+        (lexical_core::write(value, &mut buffer), value.is_finite())
     } else {
         let value = f64::from_bits(raw);
-        (format!("{value:?}"), value.is_finite())
+        (lexical_core::write(value, &mut buffer), value.is_finite())
     };
-    if !plain {
+    if !finite {
         let infinite = raw << (65 - 8 * width) == if width == 4 { 0xFF00_0000 << 32 } else { 0x7FF0 << 49 };
         return match (infinite, raw >> (8 * width - 1)) {
             (true, 0) => "infinity".to_owned(),
@@ -146,7 +149,31 @@ pub fn float(raw: u64, width: usize) -> String {
             (false, _) => format!("NaN({})", hex_value(raw, width)),
         };
     }
-    text.strip_suffix(".0").map(str::to_owned).unwrap_or(text).replace('-', "\u{2212}")
+    let text = std::str::from_utf8(text).unwrap_or_default();
+    text.strip_suffix(".0").unwrap_or(text).replace(".0e", "e").replace('-', "\u{2212}")
+}
+
+/// The bits of the number that `text` writes, in `width` bytes; `None` where it is no number, or one
+/// that is too large.
+///
+/// ```
+/// use buslens::field::parse_float;
+///
+/// assert_eq!(parse_float("123.456", 4), Some(0x42F6_E979));
+/// assert_eq!(parse_float("1e99", 4), None);
+/// ```
+pub fn parse_float(text: &str, width: usize) -> Option<u64> {
+    let infinity = |text: &str| text.trim_start_matches('-') == "infinity";
+    let text = text.replace('\u{2212}', "-");
+    let (raw, finite) = if width == 4 {
+        let value: f32 = lexical_core::parse(text.as_bytes()).ok()?;
+        (value.to_bits().into(), value.is_finite())
+    } else {
+        let value: f64 = lexical_core::parse(text.as_bytes()).ok()?;
+        (value.to_bits(), value.is_finite())
+    };
+    // 1e99 is a number to us, and infinity to a float of 4 bytes: nobody means that.
+    (finite || infinity(&text)).then_some(raw)
 }
 
 /// "handshake 1, 2 bytes, write": the flags that are set and the numbers of the other parts.

@@ -2,7 +2,7 @@
 
 use super::{Algorithm, Deviation, Deviations, Items, Part, Path, Telegram, WINDOW, Walk, Walker};
 use crate::field::{
-    Argument, Format, Message, Numbering, Spec, escaped, hex, hex_value, number_text, unescaped,
+    Argument, Format, Message, Numbering, Spec, escaped, hex, hex_value, number_text, parse_float, unescaped,
 };
 use crate::message;
 
@@ -134,24 +134,17 @@ pub fn parse_value(text: &str, width: usize, spec: &Spec) -> Result<u64, Message
     // With the unit behind it, as the field shows it.
     let written = written.strip_suffix(spec.unit).unwrap_or(written).trim_end();
     match spec.format {
-        Format::Float => parse_float(written, width),
+        Format::Float => parse_float_text(written, width),
         Format::Places(places) => parse_places(written, width, places),
         _ => parse_number(written, width),
     }
 }
 
-fn parse_float(written: &str, width: usize) -> Result<u64, Message> {
-    let plain = written.replace('\u{2212}', "-");
-    if let Some(raw) = plain.strip_prefix("NaN(").and_then(|rest| rest.strip_suffix(')')) {
+fn parse_float_text(written: &str, width: usize) -> Result<u64, Message> {
+    if let Some(raw) = written.strip_prefix("NaN(").and_then(|rest| rest.strip_suffix(')')) {
         return parse_number(raw, width);
     }
-    let parsed = match width {
-        4 => plain.parse::<f32>().ok().map(|value| (u64::from(value.to_bits()), value.is_finite())),
-        _ => plain.parse::<f64>().ok().map(|value| (value.to_bits(), value.is_finite())),
-    };
-    // 1e99 is a number to us, and infinity to a float of 4 bytes: nobody means that.
-    let meant = parsed.filter(|(_, finite)| *finite || plain.trim_start_matches('-') == "infinity");
-    meant.map(|(raw, _)| raw).ok_or_else(|| {
+    parse_float(written, width).ok_or_else(|| {
         message!(
             "“{text}” is not a number that {bytes} can hold: write it like 123.456, −0.5 or 1e6",
             text = written.to_owned(),

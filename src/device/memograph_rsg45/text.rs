@@ -1,7 +1,7 @@
 //! Text as the Memograph takes it: ASCII, two characters in a register, padded with a space to
 //! whole registers. The device takes no notice of that space.
 
-use crate::field::{Argument, Format, Message, Role, Severity, Spec};
+use crate::field::{Argument, Format, Message, Role, Severity, Spec, parse_float};
 use crate::message;
 use crate::walk::{Walk, Walker};
 
@@ -80,7 +80,7 @@ pub fn check_length(label: &'static str, length: usize, longest: usize, say: Say
 /// The number that `text` writes, with or without decimal point and exponent; says so where it is none.
 pub fn check_number(label: &'static str, text: &str, say: Say<'_>) -> Option<f32> {
     let written = text.bytes().all(|byte| b"0123456789+-.eE".contains(&byte));
-    let number = text.parse().ok().filter(|number: &f32| written && number.is_finite());
+    let number = parse_float(text, 4).filter(|_| written).map(|raw| f32::from_bits(raw as u32));
     if number.is_none() {
         let message = message!(
             "{label} is “{text}”, which is not a number: write it like 12.5, -0.5 or 1.2E-3",
