@@ -23,6 +23,9 @@ pub struct Candidate<'a> {
 /// So many bits are proof: a telegram counts by itself, whatever those around it are.
 const PROOF: u32 = 16;
 
+/// What the others' protocol counts for, in bits, where a telegram's own bytes prove none.
+const COMPANY: u32 = 4;
+
 /// Tells the protocol of each telegram: by its own bytes where they prove it, else by what fits
 /// all telegrams together best.
 pub fn protocols(telegrams: &[Candidate<'_>], settings: &Settings) -> Vec<Choice> {
@@ -37,17 +40,24 @@ pub fn protocols(telegrams: &[Candidate<'_>], settings: &Settings) -> Vec<Choice
         }
     }
     let common = best(together.iter().copied());
-    telegrams.iter().zip(fits).map(|(telegram, fits)| choose(telegram, fits, common)).collect()
+    telegrams
+        .iter()
+        .zip(fits)
+        .map(|(telegram, fits)| choose(telegram, fits, common, together[common]))
+        .collect()
 }
 
-fn choose(telegram: &Candidate<'_>, fits: Vec<Fit>, common: usize) -> Choice {
+/// `common` is the protocol that fits all telegrams best, by so many bits `together`.
+fn choose(telegram: &Candidate<'_>, fits: Vec<Fit>, common: usize, together: u32) -> Choice {
     let own = best(fits.iter().map(|fit| fit.bits));
     let (chosen, reason) = match telegram.written_as {
         Some(protocol) => (protocol, message!("it is written as one: a colon and hex digits")),
-        None if fits[own].bits >= PROOF || fits[common].bits == 0 => {
+        None if fits[own].bits >= PROOF || fits[own].bits > fits[common].bits + COMPANY => {
             (PROTOCOLS[own], fits[own].reason.clone())
         }
-        None => (PROTOCOLS[common], fits[common].reason.clone()),
+        None if fits[common].bits > 0 => (PROTOCOLS[common], fits[common].reason.clone()),
+        None if together == 0 => (PROTOCOLS[own], fits[own].reason.clone()),
+        None => (PROTOCOLS[common], message!("the others are of this protocol, and nothing fits better")),
     };
     let mut others: Vec<(&'static Protocol, Fit)> = Vec::new();
     for (protocol, fit) in PROTOCOLS.iter().copied().zip(fits) {

@@ -125,13 +125,17 @@ impl Reader<'_> {
             self.problem(Problem::warning("reserved-bits", self.last_span(), message));
         }
         if let (false, Some((from, to))) = (spec.allows(raw), spec.limits) {
-            let message = message!(
-                "{label} is {raw}; {from} to {to} are allowed",
-                label = Argument::Term(spec.label),
-                raw = raw,
-                from = from,
-                to = to
-            );
+            let label = Argument::Term(spec.label);
+            let message = match to - from {
+                0 => message!("{label} is {raw}; it must be {to}", label = label, raw = raw, to = to),
+                _ => message!(
+                    "{label} is {raw}; {from} to {to} are allowed",
+                    label = label,
+                    raw = raw,
+                    from = from,
+                    to = to
+                ),
+            };
             self.problem(Problem::error("out-of-range", self.last_span(), message));
         }
     }
