@@ -4,12 +4,14 @@
 //! neither function codes nor frames. Every block of registers and every parameter is described
 //! once, and from that description it is read, written, edited and explained.
 
+mod draft;
 pub mod keb_f5;
 mod keb_f5_modbus;
 mod keb_f5_profibus;
 mod memograph_rsg45;
 mod read;
 
+pub use draft::{Asked, Draft, Target, Task};
 pub use keb_f5::ProcessWord;
 pub use read::{Block, Numbers, Process, Registers, Said};
 
@@ -68,6 +70,8 @@ pub struct Area {
     /// The number of the first block in the manual's words: channel 1. `None` where blocks have none.
     pub first: Option<u64>,
     pub access: Access,
+    /// Each address holds 32 bits, which only services for such values reach.
+    pub long: bool,
     pub content: Content,
 }
 
@@ -224,7 +228,7 @@ impl Area {
     /// One block of one readable and writable number.
     pub const fn new(from: u16, spec: Spec) -> Self {
         let access = Access::ReadWrite;
-        Self { spec, from, stride: 1, count: 1, first: None, access, content: Content::Value }
+        Self { spec, from, stride: 1, count: 1, first: None, access, long: false, content: Content::Value }
     }
 
     /// `count` blocks of `stride` addresses, numbered from `first` in the manual's words.
@@ -242,6 +246,11 @@ impl Area {
 
     pub const fn content(mut self, content: Content) -> Self {
         self.content = content;
+        self
+    }
+
+    pub const fn long(mut self) -> Self {
+        self.long = true;
         self
     }
 

@@ -411,6 +411,19 @@ impl Here<'_> {
             wanted.push((part, to - from));
         }
         let widths: Vec<_> = wanted.iter().map(|(part, registers)| (part.spec, *registers)).collect();
+        if area.long && self.registers.width < LONG {
+            let mut block = self.cut(spec, there);
+            block.field.number = number;
+            block.field.problems.push(Problem::error(
+                "half-value",
+                self.registers.span,
+                message!(
+                    "{label} has 32 bits in one address: services for 16 bits do not reach it",
+                    label = block.field.label()
+                ),
+            ));
+            return block;
+        }
         let mut block = self.numbers(spec, number, area.access, &widths, there);
         let Some((at, (part, _))) =
             wanted.iter().enumerate().find(|(_, (part, registers))| *registers < usize::from(part.registers))
@@ -540,6 +553,9 @@ impl Telegram for Numbers {
             .try_for_each(|((spec, width), value)| w.number(spec, *width, value))
     }
 }
+
+/// Bytes of a register that holds 32 bits.
+const LONG: usize = 4;
 
 static NOT_IN_MANUAL: Spec = Spec::new("not_in_manual", "Register")
     .role(Role::Unknown)

@@ -50,6 +50,14 @@ pub struct Protocol {
     pub waiting: usize,
     /// An empty frame to read the bytes into.
     pub expect: fn(&[u8], Direction, &Settings) -> Box<dyn Frame>,
+    /// A frame around what is to be sent to this unit; `None` where the protocol carries other things.
+    pub carry: fn(u8, Cargo) -> Option<Box<dyn Frame>>,
+}
+
+/// What is to be sent.
+pub enum Cargo {
+    Modbus(Pdu),
+    Profibus(&'static Kind, Box<dyn Body>),
 }
 
 /// What tells a request from a response.

@@ -6,7 +6,7 @@
 //! Source: Modbus over serial line V1.02, section 2.5.2.
 
 use super::modbus_serial::{self as serial, PduFit, answer, check_length, head, pdu_fit};
-use super::{Content, Fit, Frame, Protocol, Settings, Speaker, Verdict};
+use super::{Cargo, Content, Fit, Frame, Protocol, Settings, Speaker, Verdict};
 use crate::field::{Direction, Message, Role, Spec, hex};
 use crate::message;
 use crate::modbus::{Dialect, LONGEST_PDU, Pdu};
@@ -22,6 +22,10 @@ pub static PROTOCOL: Protocol = Protocol {
     exchange: serial::exchange,
     waiting: 1,
     expect: |bytes, direction, settings| Box::new(Ascii::expect(bytes, direction, settings.dialect)),
+    carry: |unit, cargo| match cargo {
+        Cargo::Modbus(pdu) => Some(Box::new(Ascii { unit, pdu })),
+        Cargo::Profibus(..) => None,
+    },
 };
 
 /// An LRC is right by chance once in 256, so the PDU has to look right, too.

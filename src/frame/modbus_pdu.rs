@@ -4,7 +4,7 @@
 //! Source: Modbus application protocol V1.1b3, section 4.1.
 
 use super::modbus_serial::{PduFit, answer, pdu_fit};
-use super::{Content, Fit, Frame, Protocol, Speaker, Verdict};
+use super::{Cargo, Content, Fit, Frame, Protocol, Speaker, Verdict};
 use crate::field::Message;
 use crate::message;
 use crate::modbus::{EXCEPTION, Pdu, Server};
@@ -27,6 +27,10 @@ pub static PROTOCOL: Protocol = Protocol {
     expect: |bytes, direction, settings| {
         let function = bytes.first().copied().unwrap_or_default();
         Box::new(Bare { pdu: Pdu::expect(function, direction, settings.dialect) })
+    },
+    carry: |_, cargo| match cargo {
+        Cargo::Modbus(pdu) => Some(Box::new(Bare { pdu })),
+        Cargo::Profibus(..) => None,
     },
 };
 

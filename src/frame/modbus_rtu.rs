@@ -6,7 +6,7 @@
 //! Source: Modbus over serial line V1.02, sections 2.2 and 2.5.1.
 
 use super::modbus_serial::{self as serial, answer, check_length, head};
-use super::{Content, Fit, Frame, Protocol, Speaker, Verdict};
+use super::{Cargo, Content, Fit, Frame, Protocol, Speaker, Verdict};
 use crate::field::{Direction, Message, Role, Spec};
 use crate::message;
 use crate::modbus::{Dialect, LONGEST_PDU, Pdu};
@@ -27,6 +27,10 @@ pub static PROTOCOL: Protocol = Protocol {
     exchange: serial::exchange,
     waiting: 1,
     expect: |bytes, direction, settings| Box::new(Rtu::expect(bytes, direction, settings.dialect)),
+    carry: |unit, cargo| match cargo {
+        Cargo::Modbus(pdu) => Some(Box::new(Rtu { unit, pdu })),
+        Cargo::Profibus(..) => None,
+    },
 };
 
 /// The bytes around the PDU: unit and CRC.

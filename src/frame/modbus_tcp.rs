@@ -7,7 +7,7 @@
 //! Source: Modbus messaging on TCP/IP V1.0b, section 3.1.3.
 
 use super::modbus_serial::{PduFit, answer, check_length, pdu_fit};
-use super::{Content, Fit, Frame, Protocol, Settings, Speaker, Verdict};
+use super::{Cargo, Content, Fit, Frame, Protocol, Settings, Speaker, Verdict};
 use crate::field::{Direction, Message, Name, Role, Severity, Spec};
 use crate::message;
 use crate::modbus::{Dialect, LONGEST_PDU, Pdu, Server};
@@ -29,6 +29,10 @@ pub static PROTOCOL: Protocol = Protocol {
     },
     waiting: 64,
     expect: |bytes, direction, settings| Box::new(Tcp::expect(bytes, direction, settings.dialect)),
+    carry: |unit, cargo| match cargo {
+        Cargo::Modbus(pdu) => Some(Box::new(Tcp { transaction: 1, protocol: 0, unit, pdu })),
+        Cargo::Profibus(..) => None,
+    },
 };
 
 /// The bytes of the header, which all come before the PDU.

@@ -3,7 +3,7 @@
 //!
 //! They carry no sign of what they are. What speaks for one of them are values that it must have.
 
-use super::{Content, Fit, Frame, Protocol, Settings, Speaker, Verdict};
+use super::{Cargo, Content, Fit, Frame, Protocol, Settings, Speaker, Verdict};
 use crate::field::{Direction, Message};
 use crate::message;
 use crate::profibus::{Body, Kind, parameter_channel};
@@ -110,6 +110,10 @@ const WITHOUT_FRAME: Protocol = Protocol {
     exchange: |_| None,
     waiting: 1,
     expect: |_, direction, settings| Bare::expect(Kind::of(None, direction), settings),
+    carry: |_, cargo| match cargo {
+        Cargo::Modbus(_) => None,
+        Cargo::Profibus(kind, body) => Some(Box::new(Bare { kind, body })),
+    },
 };
 
 fn unlike() -> Fit {

@@ -14,7 +14,7 @@
 //!
 //! Source: EN 50170, volume 2, part 4 (FDL).
 
-use super::{ANY_EXCHANGE, Content, Fit, Frame, Protocol, Settings, Speaker, Verdict};
+use super::{ANY_EXCHANGE, Cargo, Content, Fit, Frame, Protocol, Settings, Speaker, Verdict};
 use crate::field::{
     Bits, Direction, Format, Message, Name, Role, Severity, Span, Spec, Value, hex_value, leaves,
 };
@@ -32,6 +32,10 @@ pub static PROTOCOL: Protocol = Protocol {
     exchange,
     waiting: 1,
     expect: |bytes, direction, settings| Box::new(Fdl::expect(bytes, direction, &settings.profibus)),
+    carry: |station, cargo| match cargo {
+        Cargo::Modbus(_) => None,
+        Cargo::Profibus(kind, body) => Some(Box::new(Fdl::to(station, kind, body))),
+    },
 };
 
 /// The start delimiters.
@@ -92,6 +96,17 @@ impl Fdl {
             body: (kind.new)(settings),
             rest: Vec::new(),
         }
+    }
+
+    /// A request of `kind` for a slave, or its response, with `body` filled in.
+    pub fn to(station: u8, kind: &'static Kind, body: Box<dyn Body>) -> Self {
+        let mut frame = Self { body, ..Self::new(kind, &profibus::Settings::default()) };
+        let slave = match kind.direction {
+            Direction::Request => &mut frame.destination,
+            Direction::Response => &mut frame.source,
+        };
+        *slave = *slave & 0x80 | station & 0x7F;
+        frame
     }
 
     /// An empty frame to read `bytes` into.

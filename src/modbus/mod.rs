@@ -256,6 +256,23 @@ impl Pdu {
         }
     }
 
+    /// The request to read `count` registers; `long` for KEB's of 32 bits.
+    pub fn reading(start: u16, count: u16, long: bool) -> Self {
+        let kind = if long { &keb::read_long_registers::REQUEST } else { &read_holding_registers::REQUEST };
+        let table = if long { &keb::LONG_REGISTERS } else { &read_holding_registers::HOLDING_REGISTERS };
+        let body = Box::new(registers::ReadRequest { table, start, quantity: count });
+        Self { body, ..kind.pdu(&STANDARD) }
+    }
+
+    /// The request to write registers; `long` for KEB's of 32 bits.
+    pub fn writing(start: u16, values: Vec<u32>, long: bool) -> Self {
+        let kind =
+            if long { &keb::write_long_registers::REQUEST } else { &write_multiple_registers::REQUEST };
+        let table = if long { &keb::LONG_REGISTERS } else { &read_holding_registers::HOLDING_REGISTERS };
+        let body = Box::new(registers::WriteRequest { table, start, values });
+        Self { body, ..kind.pdu(&STANDARD) }
+    }
+
     /// An empty PDU to read a telegram of `function` into.
     pub fn expect(function: u8, direction: Direction, dialect: &'static Dialect) -> Self {
         Self { function, ..Self::kind(function, direction, dialect).pdu(dialect) }

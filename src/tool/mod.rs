@@ -1,5 +1,6 @@
 //! What the page and the command line offer: plain data in, plain data out.
 
+mod build;
 mod decode;
 mod detail;
 pub mod examples;
@@ -7,11 +8,12 @@ pub mod examples;
 pub mod json;
 mod views;
 
-pub use crate::device::{Block, PROFILES, Profile};
+pub use crate::device::{Block, Draft, PROFILES, Profile, Task};
 pub use crate::dialogue::Certainty;
 pub use crate::frame::{PROTOCOLS, Protocol, Verdict};
 pub use crate::text::{Remark, Style};
 pub use crate::walk::guide::{Row, Size};
+pub use build::build;
 pub use decode::{Options, Report, Settings, Summary, Telegram, decode};
 pub use detail::Detail;
 pub use views::{Kind, View, views};

@@ -131,6 +131,9 @@ pub fn parse_value(text: &str, width: usize, spec: &Spec) -> Result<u64, Message
     if let Some(name) = spec.names.iter().find(|name| name.label.eq_ignore_ascii_case(written)) {
         return Ok(name.value);
     }
+    if let Some(raw) = parse_bits(written, spec) {
+        return Ok(raw);
+    }
     // With the unit behind it, as the field shows it.
     let written = written.strip_suffix(spec.unit).unwrap_or(written).trim_end();
     match spec.format {
@@ -138,6 +141,19 @@ pub fn parse_value(text: &str, width: usize, spec: &Spec) -> Result<u64, Message
         Format::Places(places) => parse_places(written, width, places),
         _ => parse_number(written, width),
     }
+}
+
+/// A number whose bits each say something, by their names: `good, limit 1 violated`.
+fn parse_bits(written: &str, spec: &Spec) -> Option<u64> {
+    let named = |word: &str| {
+        spec.bits.iter().find_map(|part| {
+            let name = part.names.iter().find(|name| name.label.eq_ignore_ascii_case(word));
+            let flag = part.count == 1 && part.names.is_empty() && part.label.eq_ignore_ascii_case(word);
+            name.map(|name| (part, name.value)).or(flag.then_some((part, 1)))
+        })
+    };
+    let mut words = written.split(',').map(|word| named(word.trim()));
+    words.try_fold(0, |raw, named| named.map(|(part, value)| part.put(raw, value)))
 }
 
 fn parse_float_text(written: &str, width: usize) -> Result<u64, Message> {
@@ -458,6 +474,7 @@ impl Walker for Fill<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::field::{Bits, Name};
 
     #[test]
     fn numbers_are_read_in_every_usual_notation() {
@@ -497,6 +514,18 @@ mod tests {
         for text in ["", ".5", "1.55", "6553.6", "-1", "x"] {
             assert!(parse_value(text, 2, &TENTHS).is_err(), "{text}");
         }
+    }
+
+    #[test]
+    fn bits_are_read_by_their_names() {
+        const MODES: &[Name] =
+            &[Name { value: 0, label: "idle", note: "" }, Name { value: 2, label: "fast", note: "" }];
+        static BITS: Spec = Spec::new("b", "B")
+            .bits(&[Bits::part(0, 2, "mode", "mode").names(MODES), Bits::flag(7, "on", "switched on")]);
+        for (text, raw) in [("fast", 2), ("Switched on, fast", 0x82), ("idle", 0), ("0x41", 0x41)] {
+            assert_eq!(parse_value(text, 1, &BITS), Ok(raw), "{text}");
+        }
+        assert!(parse_value("fast, slow", 1, &BITS).is_err());
     }
 
     #[test]

@@ -11,7 +11,7 @@ pub mod write_long_registers;
 use super::{Layout, Table};
 use crate::field::{Format, Role, Spec};
 
-static LONG_REGISTERS: Table = LONG;
+pub(super) static LONG_REGISTERS: Table = LONG;
 
 /// The F5 operator's registers, read as 32-bit values. The manual gives no largest number; the
 /// limits are what a frame of 256 bytes can hold.

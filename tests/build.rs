@@ -1,0 +1,153 @@
+//! What is asked of a device in its manual's words becomes the bytes that the manual prints, and
+//! everything that can be asked is read again as what was asked.
+
+use buslens::device::{Access, Draft, Profile};
+use buslens::field::hex;
+use buslens::tool::{Options, PROFILES, PROTOCOLS, build, decode};
+use buslens::walk::form::{self, Content, Entry};
+use buslens::walk::{Deviations, write};
+
+fn profile(key: &str) -> &'static Profile {
+    PROFILES.iter().copied().find(|profile| profile.key == key).expect(key)
+}
+
+/// A draft of the task with this label, its entries filled in by their keys.
+fn draft(device: &str, label: &str, entries: &[(&str, &str)]) -> Draft {
+    let found = profile(device).tasks().into_iter().find(|task| task.label().sentence() == label);
+    let mut draft = found.unwrap_or_else(|| panic!("no task {label}")).draft();
+    // A choice decides which other entries there are: so one after the other.
+    for (key, text) in entries {
+        let mut shown = form::form(&mut draft, &Deviations::default());
+        let entry = entry(&mut shown.entries, key).unwrap_or_else(|| panic!("{label} has no {key}"));
+        match &mut entry.content {
+            Content::Number { text: old, .. } | Content::Text { text: old } => *old = (*text).to_owned(),
+            Content::Choice { raw, .. } => {
+                *raw = form::parse_value(text, 1, entry.spec).expect("a choice");
+            }
+            other => panic!("{key} is {other:?}"),
+        }
+        form::fill(&mut draft, &shown).unwrap_or_else(|misfits| panic!("{label}: {misfits:?}"));
+    }
+    draft
+}
+
+fn entry<'a>(entries: &'a mut [Entry], key: &str) -> Option<&'a mut Entry> {
+    for entry in entries {
+        if entry.spec.key == key {
+            return Some(entry);
+        }
+        if let Content::Group { entries } = &mut entry.content
+            && let Some(found) = self::entry(entries, key)
+        {
+            return Some(found);
+        }
+    }
+    None
+}
+
+fn bytes(draft: &mut Draft, unit: u8, protocol: &str) -> String {
+    let protocol = PROTOCOLS.iter().find(|known| known.key == protocol).expect(protocol);
+    let mut frame = build(draft, unit, protocol).expect("a telegram");
+    hex(&write(frame.as_mut(), &Deviations::default()))
+}
+
+fn memograph(unit: u8, label: &str, entries: &[(&str, &str)]) -> String {
+    bytes(&mut draft("memograph-rsg45", label, entries), unit, "modbus-rtu")
+}
+
+/// Memograph M RSG45 Modbus supplement, sections 2.6.1 to 2.6.13.
+#[test]
+fn the_telegrams_of_the_memograph_manual() {
+    assert_eq!(
+        memograph(1, "Write Universal channel", &[("number", "6"), ("status", "good"), ("value", "123.456")]),
+        "01 10 00 D7 00 03 06 00 80 42 F6 E9 79 28 15"
+    );
+    assert_eq!(memograph(1, "Read Universal channel", &[("number", "1")]), "01 03 00 C8 00 03 84 35");
+    assert_eq!(
+        memograph(5, "Write Event text", &[("text", "ABCDE ")]),
+        "05 10 0B D0 00 03 06 41 42 43 44 45 20 D8 4E"
+    );
+    assert_eq!(
+        memograph(
+            5,
+            "Write Batch",
+            &[("function", "set preset counter"), ("batch", "2"), ("preset", "12.345")]
+        ),
+        "05 10 0C 10 00 04 08 06 02 31 32 2E 33 34 35 D3 B5"
+    );
+    assert_eq!(
+        memograph(
+            5,
+            "Write Limit",
+            &[("function", "change limit"), ("limit", "3"), ("new_values", "5.7;10")]
+        ),
+        "05 10 0C 90 00 04 08 03 03 35 2E 37 3B 31 30 94 BF"
+    );
+    assert_eq!(
+        memograph(5, "Write Limit", &[("function", "accept changes")]),
+        "05 10 0C 90 00 01 02 02 2A C5 7F"
+    );
+}
+
+/// A text that ends within a register is filled up with a space.
+#[test]
+fn an_odd_text_is_padded() {
+    assert_eq!(
+        memograph(5, "Write Event text", &[("text", "ABCDE")]),
+        memograph(5, "Write Event text", &[("text", "ABCDE ")])
+    );
+}
+
+#[test]
+fn keb_by_register_and_by_index() {
+    let entries = [("number", "0"), ("read_mapping_entry", "0x00330101")];
+    let mut entry = draft("keb-f5-modbus", "Write Read mapping entry", &entries);
+    assert_eq!(bytes(&mut entry, 1, "modbus-tcp"), "00 01 00 00 00 0B 01 65 5F 32 00 01 04 00 33 01 01");
+    // S1 of section 7.5.1, but with the parameter's own length.
+    let entries = [("subindex", "0"), ("reference_source", "11")];
+    let mut job = draft("keb-f5-profibus", "Write Reference source (OP.00)", &entries);
+    assert_eq!(bytes(&mut job, 1, "profibus-parameter-channel"), "72 00 23 00 00 00 00 0B");
+}
+
+#[test]
+fn a_number_that_does_not_exist_is_said() {
+    let mut channel = draft("memograph-rsg45", "Read Universal channel", &[("number", "41")]);
+    let said = build(&mut channel, 1, PROTOCOLS[0]).err().expect("refused").to_string();
+    assert_eq!(said, "Universal channel 41 does not exist: there are 1 to 40");
+}
+
+/// Everything that can be asked of any device is read back as what was asked.
+#[test]
+fn every_task_is_read_again() {
+    for profile in PROFILES {
+        let tasks = profile.tasks();
+        assert!(tasks.len() > 20, "{}", profile.key);
+        for task in tasks {
+            let label = task.label();
+            let mut draft = task.draft();
+            let Ok(asked) = draft.asked() else {
+                assert_eq!(label.to_string(), "write Event text", "a first draft is complete");
+                continue;
+            };
+            let protocol = if draft.by_index() { "profibus-parameter-channel" } else { "modbus-rtu" };
+            let text = bytes(&mut draft, 1, protocol);
+            let options = Options {
+                device: Some(profile),
+                protocol: PROTOCOLS.iter().copied().find(|known| known.key == protocol),
+                ..Options::default()
+            };
+            let detail = decode(&text, options).detail(0).expect("a telegram");
+            let block = detail.device.blocks.first().unwrap_or_else(|| panic!("{label}: {text}"));
+            assert_eq!(block.from, asked.address, "{label}");
+            let codes: Vec<_> = detail.problems().iter().map(|problem| problem.code).collect();
+            // A first draft holds zeros, which not every field takes, and no texts.
+            let expected = ["out-of-range", "data-missing", "half-value"];
+            assert!(codes.iter().all(|code| expected.contains(code)), "{label}: {codes:?} in {text}");
+            let writes =
+                detail.channel.as_ref().map_or(matches!(detail.function, Some(16 | 101)), |channel| {
+                    channel.service() == buslens::profibus::Service::Write
+                });
+            assert_eq!(writes, asked.access == Access::Write, "{label}");
+        }
+    }
+}
