@@ -61,7 +61,7 @@ fn choose(telegram: &Candidate<'_>, fits: Vec<Fit>, common: usize, together: u32
     };
     let mut others: Vec<(&'static Protocol, Fit)> = Vec::new();
     for (protocol, fit) in PROTOCOLS.iter().copied().zip(fits) {
-        if fit.bits > 0 && !std::ptr::eq(protocol, chosen) {
+        if fit.bits > COMPANY && !std::ptr::eq(protocol, chosen) {
             let at = others.partition_point(|(_, other)| other.bits >= fit.bits);
             others.insert(at, (protocol, fit));
         }

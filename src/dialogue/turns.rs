@@ -1,5 +1,5 @@
 use super::{Certainty, Guess};
-use crate::field::Direction;
+use crate::field::{Direction, Message};
 use crate::message;
 
 /// Who speaks in telegrams whose two sides take turns, by how much each looks like a response
@@ -51,14 +51,10 @@ pub fn leaning(leaning: i32) -> Guess {
     }
 }
 
-/// Who speaks in a telegram that says it.
-pub fn told(direction: Option<Direction>) -> Guess {
+/// Who speaks in a telegram that says it, or that goes one way only: `reason` says which of the two.
+pub fn told(direction: Option<Direction>, reason: Message) -> Guess {
     match direction {
-        Some(direction) => Guess {
-            direction,
-            certainty: Certainty::Certain,
-            reason: message!("telegrams of this kind say it or go one way only"),
-        },
+        Some(direction) => Guess { direction, certainty: Certainty::Certain, reason },
         None => Guess {
             direction: Direction::Request,
             certainty: Certainty::Open,

@@ -1,4 +1,4 @@
-use super::{Argument, Format, Message, Name, Numbering, Spec};
+use super::{Argument, Format, Message, Name, Numbering, Span, Spec};
 use crate::message;
 
 /// What a field held.
@@ -32,6 +32,8 @@ pub struct Check {
     pub computed: u64,
     /// The wire sends the low byte first.
     pub low_first: bool,
+    /// The bytes that it is over.
+    pub covered: Span,
 }
 
 impl Check {
@@ -368,8 +370,14 @@ mod tests {
 
     #[test]
     fn a_check_is_shown_as_bytes_and_as_a_value() {
-        let check =
-            Check { kind: "crc-16/modbus", width: 2, found: 0x8435, computed: 0x8435, low_first: true };
+        let check = Check {
+            kind: "crc-16/modbus",
+            width: 2,
+            found: 0x8435,
+            computed: 0x8435,
+            low_first: true,
+            covered: Span::new(0, 6),
+        };
         assert_eq!(check.found_bytes(), "84 35");
         assert_eq!(check.found_value(), 0x3584);
     }

@@ -232,8 +232,10 @@ impl Report {
                 let (pdu, around) = inside(bytes);
                 dialogue::direction(pdu, around, awaited, self.options.settings.frame.dialect)
             }
-            Speaker::Frame(told) => dialogue::told(told(bytes)),
-            Speaker::Always(direction) => dialogue::told(Some(direction)),
+            Speaker::Frame(told) => dialogue::told(told(bytes), message!("its frame says so")),
+            Speaker::Always(direction) => {
+                dialogue::told(Some(direction), message!("such telegrams go one way only"))
+            }
             Speaker::Turns(leaning) => dialogue::leaning(leaning(bytes)),
         };
         if guess.certainty != Certainty::Open {

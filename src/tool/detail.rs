@@ -99,7 +99,11 @@ impl Report {
             }
             Content::Profibus { slave, kind, body } => {
                 if let Some((profile, settings)) = device {
-                    detail.ask_parameters(profile, settings, body, bytes);
+                    let who = match slave {
+                        Some(slave) => message!("station {n}", n = slave),
+                        None => message!("the slave"),
+                    };
+                    detail.ask_parameters(profile, settings, &who, body, bytes);
                 }
                 detail.unit = slave;
                 detail.tell_service(&kind.spec, body);
@@ -119,36 +123,58 @@ impl Detail {
         self.device = profile.registers(&device_registers(&access, &values, &self.fields), settings);
     }
 
-    /// Asks the device's table for the parameter and the process data of a telegram.
+    /// Asks the device's table for the parameter and the process data of a telegram, and says it in
+    /// the device's words.
     fn ask_parameters(
         &mut self,
         profile: &'static Profile,
         settings: &device::Settings,
+        who: &Message,
         body: &dyn Body,
         bytes: &[u8],
     ) {
-        if let Some(channel) = body.channel().filter(|channel| channel.service() != Service::None) {
-            let access = match channel.service() {
-                Service::Write => device::Access::Write,
-                _ => device::Access::Read,
-            };
-            let value = channel.length().zip(channel.value());
-            let value = value.map(|(length, value)| Order::Big.bytes(value.into(), length));
-            let place = if value.is_some() { "value" } else { "index" };
-            let span = self.place(|spec| spec.key == place).unwrap_or_default();
-            let value = value.as_deref().map(|value| (value, Order::Big));
-            let said = profile.parameter(channel.index, channel.subindex, access, value, span);
-            self.device.blocks.extend(said.blocks);
+        let mut said = None;
+        if let Some(channel) = body.channel() {
+            let parameter = self.ask_parameter(profile, channel);
+            said = Some(channel_sentence(channel, who, parameter.sentence()));
+            self.device.blocks.extend(parameter.blocks);
         }
         if let Some(process) = body.process() {
             let output = process.side == Side::Outputs;
             let place = if output { "outputs" } else { "inputs" };
-            if let Some(span) = self.place(|spec| spec.key == place) {
-                let order = if process.swapped { Order::Little } else { Order::Big };
-                let process = Process { output, bytes: span.of(bytes), span, order };
-                self.device.blocks.extend(profile.process(&process, settings).blocks);
+            let span = self.place(|spec| spec.key == place).unwrap_or_default();
+            let order = if process.swapped { Order::Little } else { Order::Big };
+            let process = Process { output, bytes: span.of(bytes), span, order };
+            let words = profile.process(&process, settings);
+            if let Some(things) = words.sentence() {
+                let things = match output {
+                    true => message!("outputs: {things}", things = things),
+                    false => message!("inputs: {things}", things = things),
+                };
+                said = Some(match said {
+                    Some(said) => message!("{said}; {things}", said = said, things = things),
+                    None => message!("{who}, {things}", who = who.clone(), things = things),
+                });
             }
+            self.device.blocks.extend(words.blocks);
         }
+        if let Some(said) = said {
+            self.said = said;
+        }
+    }
+
+    fn ask_parameter(&self, profile: &'static Profile, channel: &Channel) -> Said {
+        let access = match channel.service() {
+            Service::None => return Said::default(),
+            Service::Write => device::Access::Write,
+            Service::Read | Service::Both => device::Access::Read,
+        };
+        let value = channel.length().zip(channel.value());
+        let value = value.map(|(length, value)| Order::Big.bytes(value.into(), length));
+        let place = if value.is_some() { "value" } else { "index" };
+        let span = self.place(|spec| spec.key == place).unwrap_or_default();
+        let value = value.as_deref().map(|value| (value, Order::Big));
+        profile.parameter(channel.index, channel.subindex, access, value, span)
     }
 
     /// Where the first field of such a spec stands.
@@ -172,9 +198,6 @@ impl Detail {
 
     /// What a telegram of a PROFIBUS service says.
     fn tell_service(&mut self, spec: &'static Spec, body: &dyn Body) {
-        if let Some(things) = self.device.sentence() {
-            self.said = message!("{said} ({things})", said = self.said.clone(), things = things);
-        }
         if let Some(step) = &self.step {
             let (job, said) = (step.job, self.said.clone());
             self.said = match step.state {
@@ -223,6 +246,26 @@ impl Detail {
         self.coils = access.is_some_and(|access| access.table.holds_switches());
         self.count = access.map(|access| access.count);
         self.values = access.map_or(Vec::new(), |access| access.values.to_vec());
+    }
+}
+
+/// What a parameter channel says, with the device's words for the parameter.
+fn channel_sentence(channel: &Channel, who: &Message, things: Option<Message>) -> Message {
+    let plain = channel.meaning(who.clone());
+    let (Some(things), who) = (things, who.clone()) else { return plain };
+    match (channel.direction, channel.service()) {
+        _ if channel.refusal().is_some() => message!("{plain} ({things})", plain = plain, things = things),
+        (Direction::Request, Service::Read) => message!("ask {who} for {things}", who = who, things = things),
+        (Direction::Request, Service::Write) => {
+            message!("write to {who}: {things}", who = who, things = things)
+        }
+        (Direction::Response, Service::Read) => {
+            message!("{who} answers: {things}", who = who, things = things)
+        }
+        (Direction::Response, Service::Write) => {
+            message!("{who} confirms what it wrote: {things}", who = who, things = things)
+        }
+        (_, Service::None | Service::Both) => plain,
     }
 }
 

@@ -322,6 +322,7 @@ impl Walker for Reader<'_> {
             found,
             computed: algorithm.wire(covered.of(self.bytes)),
             low_first: algorithm.low_first,
+            covered,
         };
         if !check.ok() {
             let message = message!(

@@ -4,17 +4,18 @@ use maud::{Markup, html};
 
 use crate::app::browser::span_text;
 use crate::app::state::Shown;
-use crate::field::{Span, hex, hex_value};
+use crate::field::{Check, Span, hex, hex_value};
 use crate::tool::Verdict;
 
 pub fn check(shown: &Shown) -> Markup {
     let Some(check) = shown.detail.check() else { return unchecked(shown) };
     let bytes = shown.bytes();
-    let covered = bytes.len() - check.width;
     let computed = check.computed_bytes();
     let explained = html! {
         (check.kind.to_ascii_uppercase()) " over "
-        button.link type="button" data-span=(span_text(Span::new(0, covered))) { "bytes 0 to " (covered - 1) }
+        button.link type="button" data-span=(span_text(check.covered)) {
+            "bytes " (check.covered.from) " to " (check.covered.to.saturating_sub(1))
+        }
         " gives " code { (hex_value(check.computed_value(), check.width)) }
         @if check.low_first { ", on the wire low byte first: " code { (computed) } }
         "."
@@ -35,12 +36,20 @@ pub fn check(shown: &Shown) -> Markup {
                     "Some byte is not what its sender checked, or is missing or too many, or the check itself is \
                      wrong. The check alone cannot tell which: what is said above may be wrong, too."
                 }
-                button.quiet type="button" data-copy={ (hex(&bytes[..covered])) " " (computed) } {
+                button.quiet type="button" data-copy=(hex(&corrected(bytes, &check))) {
                     "Copy with the computed check"
                 }
             }
         }
     }
+}
+
+/// The bytes with the check as it should be.
+fn corrected(bytes: &[u8], check: &Check) -> Vec<u8> {
+    let place = Span::new(check.covered.to, check.covered.to + check.width);
+    let computed = &check.computed.to_be_bytes()[8 - check.width..];
+    [Span::new(0, place.from).of(bytes), computed, Span::new(place.to, bytes.len().max(place.to)).of(bytes)]
+        .concat()
 }
 
 /// A protocol without a check of its own: said, so that nobody takes it for checked.

@@ -4,25 +4,22 @@ use maud::{Markup, html};
 
 use crate::app::browser;
 use crate::app::state::State;
-use crate::tool::examples::EXAMPLES;
+use crate::tool::PROFILES;
+use crate::tool::examples::{EXAMPLES, Group};
 
-/// The examples as buttons, right ones before broken ones.
+/// The examples as buttons, group by group.
 pub fn examples() -> Markup {
-    let group = |title: &str, broken: bool| {
-        html! {
+    html! {
+        @for group in Group::ALL {
             section {
-                p.title aria-hidden="true" { (title) }
-                ul aria-label=(title) {
-                    @for example in EXAMPLES.iter().filter(|example| example.broken == broken) {
+                p.title aria-hidden="true" { (group.label()) }
+                ul aria-label=(group.label()) {
+                    @for example in EXAMPLES.iter().filter(|example| example.group == group) {
                         li { button type="button" data-example=(example.key) { (example.label) } }
                     }
                 }
             }
         }
-    };
-    html! {
-        (group("As they should be", false))
-        (group("Broken, to see what is said", true))
     }
 }
 
@@ -32,6 +29,8 @@ pub fn load(state: State, event: &web_sys::Event) -> bool {
     let example = EXAMPLES.iter().find(|example| Some(example.key) == key.as_deref());
     if let Some(example) = example {
         state.load(example.text);
+        let device = PROFILES.iter().copied().find(|profile| profile.key == example.device);
+        state.read_as(|options| options.device = device);
     }
     example.is_some()
 }

@@ -69,7 +69,10 @@ fn row(field: &Field, depth: usize, bytes: &[u8], first: bool, about: Option<Str
     // The meaning tells what is set: the bits are for those who want to know more.
     let open = if parts.is_empty() { "true" } else { "false" };
     let opens = within || !parts.is_empty();
-    let telling = matches!(field.value, Value::Group | Value::Bytes) || about.is_none();
+    let meaning = match field.value {
+        Value::Group if within && about.is_none() => count(field.children.len(), "value"),
+        _ => field.meaning().map_or(String::new(), |meaning| meaning.to_string()),
+    };
     html! {
         tr role="row" class={ (role_class(field.spec.role)) (faulty(field)) }
             data-span=(span_text(span)) data-depth=(depth) {
@@ -85,13 +88,9 @@ fn row(field: &Field, depth: usize, bytes: &[u8], first: bool, about: Option<Str
             }
             td.value role="cell" { (field.value_text()) }
             td.meaning role="cell" {
-                @match (&field.value, field.meaning()) {
-                    (Value::Group, _) => @if within && about.is_none() { (count(field.children.len(), "value")) },
-                    (_, Some(meaning)) => (meaning),
-                    (_, None) => "",
-                }
+                (meaning)
                 @if let Some(about) = about {
-                    @if !telling { br; }
+                    @if !meaning.is_empty() { br; }
                     small { (about) }
                 }
             }
