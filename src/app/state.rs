@@ -49,6 +49,10 @@ impl Light {
     pub fn span(self) -> Option<Span> {
         self.pointed.or(self.chosen)
     }
+
+    pub fn chosen(self) -> Option<Span> {
+        self.chosen
+    }
 }
 
 impl Shown {

@@ -29,6 +29,8 @@ pub struct Detail {
     pub values: Vec<u32>,
     /// The values are bits: coils or discrete inputs.
     pub coils: bool,
+    /// Where 16-bit registers or words of process data stand in it.
+    pub registers: Option<Span>,
     /// The parameter channel in it.
     pub channel: Option<Channel>,
     /// What it is for a job of the parameter channel.
@@ -83,6 +85,7 @@ impl Report {
             count: None,
             values: Vec::new(),
             coils: false,
+            registers: None,
             channel: None,
             step: telegram.step.clone(),
             device: Said::default(),
@@ -96,6 +99,7 @@ impl Report {
                 }
                 detail.unit = server.unit().filter(|_| !bytes.is_empty());
                 detail.tell_pdu(server, pdu);
+                detail.registers = detail.register_place(pdu);
             }
             Content::Profibus { slave, kind, body } => {
                 if let Some((profile, settings)) = device {
@@ -106,6 +110,7 @@ impl Report {
                     detail.ask_parameters(profile, settings, &who, body, bytes);
                 }
                 detail.unit = slave;
+                detail.registers = detail.place(|spec| ["outputs", "inputs"].contains(&spec.key));
                 detail.tell_service(&kind.spec, body);
             }
             Content::Nothing(spec) => detail.tell_kind(spec, Message::term(spec.label)),
@@ -161,6 +166,13 @@ impl Detail {
         if let Some(said) = said {
             self.said = said;
         }
+    }
+
+    /// Where the values of a PDU stand that are no coils.
+    fn register_place(&self, pdu: &Pdu) -> Option<Span> {
+        let table = pdu.body.access().filter(|access| !access.table.holds_switches())?.table;
+        let of = |wanted: &'static Spec| self.place(|spec| std::ptr::eq(spec, wanted));
+        of(&table.values).or(of(&table.value)).filter(|span| span.len() >= 2)
     }
 
     fn ask_parameter(&self, profile: &'static Profile, channel: &Channel) -> Said {

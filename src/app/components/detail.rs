@@ -4,7 +4,7 @@ use leptos::prelude::*;
 use maud::{Markup, html};
 use web_sys::{Element, Event, KeyboardEvent};
 
-use super::{check, examples, fields, layout, strip};
+use super::{check, examples, fields, layout, strip, views};
 use crate::app::browser;
 use crate::app::state::{Decoded, Shown, State};
 use crate::field::{Message, Severity, hex};
@@ -26,6 +26,11 @@ pub fn Telegram(state: State) -> impl IntoView {
         };
         state.decoded.with(layout).map(Markup::into_string).unwrap_or_default()
     };
+    let registers = move || {
+        let chosen = state.light.get().chosen();
+        let views = |decoded: &Decoded| decoded.shown.as_ref().map(|shown| views::chosen(shown, chosen));
+        state.decoded.with(views).map(Markup::into_string).unwrap_or_default()
+    };
     view! {
         <section
             id=browser::DETAIL
@@ -42,12 +47,20 @@ pub fn Telegram(state: State) -> impl IntoView {
             on:keydown=move |event| go(state, &event)
         >
             <div inner_html=reading></div>
+            <details class="layout" hidden=move || state.decoded.with(|decoded| !has_registers(decoded))>
+                <summary>"Registers in every view"</summary>
+                <div inner_html=registers></div>
+            </details>
             <details class="layout" hidden=move || state.decoded.with(|decoded| decoded.shown.is_none())>
                 <summary>"How such a telegram is made"</summary>
                 <div inner_html=layout></div>
             </details>
         </section>
     }
+}
+
+fn has_registers(decoded: &Decoded) -> bool {
+    decoded.shown.as_ref().is_some_and(|shown| shown.detail.registers.is_some())
 }
 
 /// Cells and rows that the arrow keys lead to.

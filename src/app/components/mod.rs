@@ -14,3 +14,4 @@ pub mod layout;
 pub mod list;
 pub mod marks;
 pub mod strip;
+pub mod views;

@@ -1,0 +1,50 @@
+//! A register in every usual view, alone and together with those behind it.
+
+use maud::{Markup, html};
+
+use crate::app::state::Shown;
+use crate::field::{Order, Span};
+use crate::tool::{View, views};
+
+/// The views of the chosen register, or how to choose one.
+pub fn chosen(shown: &Shown, chosen: Option<Span>) -> Markup {
+    let Some(registers) = shown.detail.registers else { return html! {} };
+    // Registers are two bytes, counted from the first one.
+    let from = chosen.map(|span| span.from).filter(|from| registers.contains(*from));
+    let Some(from) = from.map(|from| from - (from - registers.from) % 2) else {
+        return html! { p { "Choose a register among the bytes or fields to see it here." } };
+    };
+    let views = views(Span::new(from, registers.to).of(shown.bytes()));
+    html! {
+        p { "Bytes " (from) " and " (from + 1) " by themselves, and with what follows them." }
+        @for bits in [16, 32, 64] {
+            (table(bits, views.iter().filter(|view| view.bits == bits).collect()))
+        }
+    }
+}
+
+/// Views of so many bits: a row for each order, a column for each kind.
+fn table(bits: usize, views: Vec<&View>) -> Markup {
+    let of = |order: Order| views.iter().filter(move |view| view.order == order);
+    html! {
+        @if !views.is_empty() {
+            table.views {
+                thead {
+                    tr {
+                        th scope="col" { (bits) " bits" }
+                        @for view in of(Order::Big) { th scope="col" { (view.kind.name()) } }
+                    }
+                }
+                tbody {
+                    @for order in Order::ALL.into_iter().filter(|order| of(*order).next().is_some()) {
+                        @let (letters, words) = if bits == 16 { ("", "") } else { order.name() };
+                        tr {
+                            th scope="row" { (letters) " " small { (words) } }
+                            @for view in of(order) { td { (view.text) } }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
