@@ -17,7 +17,17 @@ pub fn chosen(shown: &Shown, chosen: Option<Span>) -> Markup {
     let views = views(Span::new(from, registers.to).of(shown.bytes()));
     html! {
         p { "Bytes " (from) " and " (from + 1) " by themselves, and with what follows them." }
-        @for bits in [16, 32, 64] {
+        table.views {
+            tbody {
+                @for view in views.iter().filter(|view| view.bits == 16) {
+                    tr {
+                        th scope="row" { (view.kind.name()) }
+                        td { (view.text) }
+                    }
+                }
+            }
+        }
+        @for bits in [32, 64] {
             (table(bits, views.iter().filter(|view| view.bits == bits).collect()))
         }
     }
@@ -37,7 +47,7 @@ fn table(bits: usize, views: Vec<&View>) -> Markup {
                 }
                 tbody {
                     @for order in Order::ALL.into_iter().filter(|order| of(*order).next().is_some()) {
-                        @let (letters, words) = if bits == 16 { ("", "") } else { order.name() };
+                        @let (letters, words) = order.name();
                         tr {
                             th scope="row" { (letters) " " small { (words) } }
                             @for view in of(order) { td { (view.text) } }
