@@ -5,7 +5,7 @@ use std::io::{Read, Write as _};
 use std::process::ExitCode;
 
 use buslens::field::Direction;
-use buslens::tool::{Options, PROFILES, PROTOCOLS, decode, json};
+use buslens::tool::{Options, PROFILES, PROTOCOLS, decode, json, settings};
 
 fn main() -> ExitCode {
     match run() {
@@ -51,6 +51,11 @@ fn run() -> Result<String, String> {
             }
             "--input" => _ = choice(&["auto", "text"])?,
             "--language" => _ = choice(&["en"])?,
+            "--settings" => {
+                let path = value.or_else(|| arguments.next()).unwrap_or_default();
+                let text = input(Some(&path))?;
+                options.settings = settings::read(&text).map_err(|reason| format!("{path}: {reason}"))?;
+            }
             "--direction" => {
                 options.direction = match choice(&["auto", "request", "response"])? {
                     "request" => Some(Direction::Request),
@@ -111,12 +116,14 @@ fn help() -> String {
 Prints the telegrams of a text as JSON Lines, and a summary at the end.
 
 decode [--protocol PROTOCOL] [--device DEVICE] [--direction auto|request|response]
-       [--input auto|text] [--language en] [--fields] [FILE]
+       [--settings FILE] [--input auto|text] [--language en] [--fields] [FILE]
 
 PROTOCOL:    {}
 DEVICE:      {}
 
-Without FILE, or with -, it reads standard input. --fields adds the tree of fields.
+Without FILE, or with -, it reads standard input. --fields adds the tree of fields. The settings
+are those of the devices that speak: mapping lists, layouts, byte orders, as JSON (see the module
+buslens::tool::settings).
 ",
         list(keys("auto", PROTOCOLS.iter().map(|protocol| protocol.key))),
         list(keys("none", PROFILES.iter().map(|profile| profile.key))),

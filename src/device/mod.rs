@@ -4,6 +4,7 @@
 //! neither function codes nor frames. Every block of registers and every parameter is described
 //! once, and from that description it is read, written, edited and explained.
 
+mod display;
 mod draft;
 pub mod keb_f5;
 mod keb_f5_modbus;
@@ -11,6 +12,7 @@ mod keb_f5_profibus;
 mod memograph_rsg45;
 mod read;
 
+pub use display::Display;
 pub use draft::{Asked, Draft, Target, Task};
 pub use keb_f5::ProcessWord;
 pub use read::{Block, Numbers, Process, Registers, Said};
@@ -124,14 +126,6 @@ pub struct Parameter {
     pub since: &'static str,
     /// What it is called (the maker's name is the label, what it is for the note), and how its value is shown.
     pub spec: Spec,
-}
-
-/// A text that the device's display shows.
-#[derive(Debug)]
-pub struct Display {
-    /// As the seven segments write it.
-    pub text: &'static str,
-    pub meaning: &'static str,
 }
 
 /// What a user set up in a device, as far as it changes what its registers mean.

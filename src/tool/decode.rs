@@ -3,13 +3,13 @@ use std::mem::discriminant;
 
 use crate::device::{self, Profile};
 use crate::dialogue::{self, Candidate, Certainty, Choice, Guess, Pairing};
-use crate::field::{self, Direction, Span};
+use crate::field::{self, Argument, Direction, Severity, Span};
 use crate::frame::{self, Content, Frame, Protocol, Speaker, Verdict, modbus_ascii};
 use crate::message;
 use crate::modbus::Pdu;
 use crate::profibus::Service;
 use crate::profibus::jobs::{self, Jobs, Step};
-use crate::text::{self, Line, Style};
+use crate::text::{self, Line, Remark, Style};
 use crate::walk::{self, guide};
 
 /// How a text is to be read.
@@ -49,8 +49,11 @@ pub fn decode(text: &str, mut options: Options) -> Report {
         options,
         learned: Vec::new(),
     };
-    let (mut lines, empty): (Vec<Line>, Vec<Line>) =
-        reading.lines.into_iter().partition(|line| !line.bytes.is_empty());
+    let (mut lines, empty): (Vec<Line>, Vec<Line>) = reading
+        .lines
+        .into_iter()
+        .map(|line| report.explain_display(text, line))
+        .partition(|line| !line.bytes.is_empty());
     report.not_understood = empty;
     lines.iter_mut().for_each(characters_to_bytes);
     let choices = report.protocols(&lines);
@@ -165,6 +168,19 @@ impl Report {
     pub fn layout(&self, index: usize) -> Vec<guide::Row> {
         let telegram = self.telegrams.get(index);
         telegram.map_or(Vec::new(), |_| guide::guide(self.read(index).0.as_mut()))
+    }
+
+    /// A line that is no bytes but what the device's display shows, with what that means.
+    fn explain_display(&self, text: &str, line: Line) -> Line {
+        let written = text.get(line.span.from..line.span.to).unwrap_or_default().trim();
+        let Some(shown) = self.options.device.and_then(|profile| profile.shown(written)) else { return line };
+        let message = message!(
+            "on the display of the device, {text} means: {meaning}",
+            text = shown.text.to_owned(),
+            meaning = Argument::Term(shown.meaning)
+        );
+        let remark = Remark { code: "display", severity: Severity::Warning, message, span: line.span };
+        Line { number: line.number, span: line.span, remarks: vec![remark], ..Line::default() }
     }
 
     /// The protocol of each line.

@@ -6,6 +6,8 @@ mod detail;
 pub mod examples;
 #[cfg(feature = "json")]
 pub mod json;
+#[cfg(feature = "json")]
+pub mod settings;
 mod views;
 
 pub use crate::device::{Block, Draft, PROFILES, Profile, Task};
