@@ -340,20 +340,21 @@ impl Report {
                         changed = settings.frame.profibus.layout != layout;
                         settings.frame.profibus.layout = layout;
                     }
-                    let Some(channel) = body.channel() else { continue };
-                    let known = slaves.iter().position(|(other, _)| *other == slave);
-                    let at = known.unwrap_or_else(|| {
-                        slaves.push((slave, Jobs::default()));
-                        slaves.len() - 1
-                    });
-                    let step = slaves[at].1.next(channel);
-                    let done = step.as_ref().filter(|step| step.state == jobs::State::Done);
-                    let written = done.filter(|_| channel.service() == Service::Write);
-                    if let (Some(profile), Some(value)) = (profile, written.and_then(|step| step.value)) {
-                        changed |=
-                            profile.learn(channel.index, channel.subindex, value, &mut settings.device);
+                    if let Some(channel) = body.channel() {
+                        let known = slaves.iter().position(|(other, _)| *other == slave);
+                        let at = known.unwrap_or_else(|| {
+                            slaves.push((slave, Jobs::default()));
+                            slaves.len() - 1
+                        });
+                        let step = slaves[at].1.next(channel);
+                        let done = step.as_ref().filter(|step| step.state == jobs::State::Done);
+                        let written = done.filter(|_| channel.service() == Service::Write);
+                        if let (Some(profile), Some(value)) = (profile, written.and_then(|step| step.value)) {
+                            changed |=
+                                profile.learn(channel.index, channel.subindex, value, &mut settings.device);
+                        }
+                        self.telegrams[index].step = step;
                     }
-                    self.telegrams[index].step = step;
                 }
                 Content::Nothing(_) => {}
             }
