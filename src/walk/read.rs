@@ -3,6 +3,7 @@ use super::{
 };
 use crate::field::{
     Argument, Check, Field, Format, Message, Numbering, Problem, Role, Severity, Span, Spec, Value, escaped,
+    number_text,
 };
 use crate::message;
 
@@ -116,24 +117,33 @@ impl Reader<'_> {
     /// Limits, and bits that must be 0.
     fn check_limits(&mut self, spec: &'static Spec, raw: u64) {
         for part in spec.bits.iter().filter(|part| part.reserved && part.of(raw) != 0) {
-            let message = message!(
-                "{label}: bits {from} to {to} are reserved and should be 0",
-                label = Argument::Term(spec.label),
-                from = part.from,
-                to = part.from + part.count - 1
-            );
+            let (label, from, to) = (Argument::Term(spec.label), part.from, part.from + part.count - 1);
+            let message = match part.count {
+                1 => message!("{label}: bit {n} is reserved and should be 0", label = label, n = from),
+                _ => message!(
+                    "{label}: bits {from} to {to} are reserved and should be 0",
+                    label = label,
+                    from = from,
+                    to = to
+                ),
+            };
             self.problem(Problem::warning("reserved-bits", self.last_span(), message));
         }
         if let (false, Some((from, to))) = (spec.allows(raw), spec.limits) {
             let message = message!(
                 "{label} is {raw}; {from} to {to} are allowed",
                 label = Argument::Term(spec.label),
-                raw = raw,
-                from = from,
-                to = to
+                raw = self.shown(spec, raw),
+                from = self.shown(spec, from),
+                to = self.shown(spec, to)
             );
             self.problem(Problem::error("out-of-range", self.last_span(), message));
         }
+    }
+
+    /// A number as the field just read shows its own.
+    fn shown(&self, spec: &'static Spec, raw: u64) -> String {
+        number_text(raw, self.last_span().len(), spec.format)
     }
 
     /// Takes a number that other things of the telegram determine, and notes it by its path.
@@ -220,10 +230,10 @@ impl Walker for Reader<'_> {
             && raw != expected
         {
             let message = message!(
-                "{label} is {raw}; by the rest of the telegram, it must be {expected}",
+                "{label} is {raw}; it must be {expected} here",
                 label = Argument::Term(spec.label),
-                raw = raw,
-                expected = expected
+                raw = self.shown(spec, raw),
+                expected = self.shown(spec, expected)
             );
             self.problem(Problem::error("count-mismatch", self.last_span(), message));
         }
