@@ -46,8 +46,10 @@ static AREAS: &[Area] = &[
         "KEB COMBIVERT F5 Modbus operator, 2.2",
     ),
     Area::new(0x5F00, OPERATOR_PARAMETER).blocks(0x32, 1, 0x5F00),
-    Area::new(0x5F32, mapping_entry("read_mapping_entry", "Read mapping entry")).blocks(100, 1, 0),
-    Area::new(0x5F96, mapping_entry("write_mapping_entry", "Write mapping entry")).blocks(100, 1, 0),
+    Area::new(0x5F32, mapping_entry("read_mapping_entry", "Read mapping entry")).blocks(100, 1, 0).length(4),
+    Area::new(0x5F96, mapping_entry("write_mapping_entry", "Write mapping entry"))
+        .blocks(100, 1, 0)
+        .length(4),
     Area::new(0x5FFA, OPERATOR_PARAMETER).blocks(6, 1, 0x5FFA),
 ];
 

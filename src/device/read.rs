@@ -1,6 +1,6 @@
 //! Reading registers and parameters by a device's table.
 
-use super::{Access, Area, Content, Mapping, Parameter, Part, Profile, Settings};
+use super::{Access, Area, Content, Mapping, Parameter, Part, Profile, Settings, keb_f5};
 use crate::field::{Argument, Field, Message, Numbering, Order, Problem, Role, Span, Spec, Value, hex_value};
 use crate::message;
 use crate::walk::{self, Telegram, Walk, Walker};
@@ -219,23 +219,16 @@ impl Profile {
                 let mut block = here.single(&parameter.spec, None, parameter.access);
                 block.id = parameter.id;
                 if let Some(length) = parameter.length.filter(|length| value.is_some() && width < *length) {
-                    block.field.problems.push(Problem::warning(
-                        "value-too-short",
-                        span,
-                        message!(
-                            "{name} has {length}; the telegram carries {width}",
-                            name = Argument::Term(parameter.spec.label),
-                            length = Message::bytes(length),
-                            width = width
-                        ),
-                    ));
+                    block.field.problems.push(too_short(&parameter.spec, length, width, span));
                 }
                 block
             }
             None => self.block(&here, &Mapping::default()),
         };
         // The subindex is a set mask only where the table does not use it otherwise.
-        if self.named(index, Some(subindex)).is_none_or(|parameter| parameter.subindex.is_none()) {
+        if keb_f5::INVERTER_INDICES.contains(&index)
+            && self.named(index, Some(subindex)).is_none_or(|parameter| parameter.subindex.is_none())
+        {
             let sets = set_names(subindex);
             block.note = Some(match block.note {
                 Some(note) => message!("{note}; {sets}", note = note, sets = sets),
@@ -278,16 +271,20 @@ impl Profile {
 
     fn block(&'static self, here: &Here<'_>, mapping: &Mapping) -> Block {
         if let Some(parameter) = self.named(here.address, None) {
-            let mut block = here.single(&parameter.spec, None, parameter.access);
+            let mut block = here.whole(&parameter.spec, None, parameter.access, parameter.length);
             block.id = parameter.id;
             return block;
         }
-        let Some(area) = self.areas.iter().find(|area| (area.from..=area.last()).contains(&here.address))
-        else {
+        let Some(area) = self.area(here.address) else {
             let next = self.areas.iter().map(|area| area.from).filter(|from| *from > here.address).min();
             return here.unknown(next);
         };
         match area.content {
+            Content::Value if area.length.is_some() => {
+                let number =
+                    area.first.map(|first| Numbering::At(first + u64::from(here.address - area.from)));
+                here.whole(&area.spec, number, area.access, area.length)
+            }
             Content::Value => here.values(area, &[], &area.spec),
             Content::Parts(parts) => here.values(area, parts, &area.spec),
             Content::Telegram { read, write } => {
@@ -349,6 +346,20 @@ impl Profile {
     }
 }
 
+/// A value of which a telegram has only a part.
+fn too_short(spec: &'static Spec, length: usize, width: usize, span: Span) -> Problem {
+    Problem::warning(
+        "value-too-short",
+        span,
+        message!(
+            "{name} has {length}; the telegram carries {width} of them",
+            name = Argument::Term(spec.label),
+            length = Message::bytes(length),
+            width = width
+        ),
+    )
+}
+
 /// "sets 0, 2" of a set mask.
 fn set_names(mask: u8) -> Message {
     let sets: Vec<String> =
@@ -387,6 +398,25 @@ impl Here<'_> {
     /// A number of one register.
     fn single(&self, spec: &'static Spec, number: Option<Numbering>, access: Access) -> Block {
         self.numbers(spec, number, access, &[(spec, 1)], 1)
+    }
+
+    /// A number of one register, of which a narrow register has only a part.
+    fn whole(
+        &self,
+        spec: &'static Spec,
+        number: Option<Numbering>,
+        access: Access,
+        length: Option<usize>,
+    ) -> Block {
+        let Registers { span, width, .. } = *self.registers;
+        let Some(length) = length.filter(|length| width < *length) else {
+            return self.single(spec, number, access);
+        };
+        let mut block = self.cut(spec, 1);
+        block.field.number = number;
+        self.check_access(&mut block.field, access);
+        block.field.problems.push(too_short(spec, length, width, span));
+        block
     }
 
     /// The area's block at this address, with the parts that the telegram has of it.
@@ -490,16 +520,12 @@ impl Here<'_> {
     /// Registers that the manual does not name, up to the next that it does.
     fn unknown(&self, next: Option<u16>) -> Block {
         let count = next.map_or(self.left, |next| usize::from(next - self.address).min(self.left));
-        let mut block = self.cut(&NOT_IN_MANUAL, count);
+        let mut block = self.cut(if self.hex { &NOT_IN_HEX_MANUAL } else { &NOT_IN_MANUAL }, count);
         block.field.number = Some(Numbering::At(self.address.into()));
         block.field.problems.push(Problem::warning(
             "not-in-manual",
             block.field.span,
-            message!(
-                "the manual has nothing at {from} to {to}",
-                from = u64::from(block.from),
-                to = u64::from(block.to)
-            ),
+            message!("the manual has nothing at {addresses}", addresses = block.registers()),
         ));
         block
     }
@@ -541,6 +567,9 @@ impl Telegram for Numbers {
     }
 }
 
-static NOT_IN_MANUAL: Spec = Spec::new("not_in_manual", "Register")
+static NOT_IN_MANUAL: Spec = UNKNOWN;
+static NOT_IN_HEX_MANUAL: Spec = UNKNOWN.hex_numbers();
+
+const UNKNOWN: Spec = Spec::new("not_in_manual", "Register")
     .role(Role::Unknown)
     .note("The device's manual does not name this address.");
