@@ -130,13 +130,19 @@ impl Reader<'_> {
             self.problem(Problem::warning("reserved-bits", self.last_span(), message));
         }
         if let (false, Some((from, to))) = (spec.allows(raw), spec.limits) {
-            let message = message!(
-                "{label} is {raw}; {from} to {to} are allowed",
-                label = Argument::Term(spec.label),
-                raw = self.shown(spec, raw),
-                from = self.shown(spec, from),
-                to = self.shown(spec, to)
-            );
+            let (label, raw, to) = (Argument::Term(spec.label), self.shown(spec, raw), self.shown(spec, to));
+            let message = match spec.limits {
+                Some((only, most)) if only == most => {
+                    message!("{label} is {raw}; only {to} is allowed", label = label, raw = raw, to = to)
+                }
+                _ => message!(
+                    "{label} is {raw}; {from} to {to} are allowed",
+                    label = label,
+                    raw = raw,
+                    from = self.shown(spec, from),
+                    to = to
+                ),
+            };
             self.problem(Problem::error("out-of-range", self.last_span(), message));
         }
     }
