@@ -189,10 +189,12 @@ impl Profile {
             ));
         }
         let mapping = settings.mapping(registers.access);
+        // What goes past the last address is nothing that a table could know.
+        let count = registers.count.min(usize::from(u16::MAX - registers.start) + 1);
         let mut done = 0;
-        while done < registers.count {
-            let Ok(address) = u16::try_from(usize::from(registers.start) + done) else { break };
-            let here = Here { registers, address, left: registers.count - done, hex: self.hex_addresses };
+        while done < count {
+            let address = registers.start + done as u16;
+            let here = Here { registers, address, left: count - done, hex: self.hex_addresses };
             let block = self.block(&here, mapping);
             done += usize::from(block.to - block.from) + 1;
             said.blocks.push(block);
@@ -209,6 +211,8 @@ impl Profile {
         value: Option<(&[u8], Order)>,
         span: Span,
     ) -> Said {
+        // No number has more bytes.
+        let value = value.filter(|(bytes, _)| bytes.len() <= 8);
         let big_endian = value.map(|(bytes, order)| Order::Big.bytes(order.number(bytes), bytes.len()));
         let width = value.map_or(0, |(bytes, _)| bytes.len());
         let registers =
