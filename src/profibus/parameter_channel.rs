@@ -406,6 +406,8 @@ pub fn leaning(bytes: &[u8]) -> i32 {
         (Service::Read, _) => -2,
         (Service::Write, 1) if more => 3,
         (Service::Write, 1) if *first == 0 => 0,
+        // A request for one byte, or the confirmation of two, the second of them 0.
+        (Service::Write, 1) => -1,
         (Service::Write, _) => -3,
         _ => 0,
     }
