@@ -164,14 +164,14 @@ fn assert_snake_case(key: &str) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(500) })]
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(1000) })]
 
     #[test]
     fn any_registers_are_covered(
         profile in profile(),
         settings in settings(),
         start in address(),
-        count in 0..200_usize,
+        count in prop_oneof![0..12_usize, 0..200_usize],
         width in prop_oneof![Just(2_usize), Just(4)],
         access in access(),
         bytes in proptest::option::of(proptest::collection::vec(any::<u8>(), 0..800)),
@@ -285,13 +285,13 @@ fn profile() -> impl Strategy<Value = &'static Profile> {
     proptest::sample::select(PROFILES)
 }
 
-/// Any address; mostly one near where an area begins or ends.
+/// Any address; mostly one near where an area begins or ends, or one that may be mapped.
 fn address() -> impl Strategy<Value = u16> {
     let areas = PROFILES.iter().flat_map(|profile| profile.areas);
     let borders: Vec<u16> = areas.flat_map(|area| [area.from, area.last()]).collect();
     let near = (proptest::sample::select(borders), -12..12_i32)
         .prop_map(|(border, by)| (i32::from(border) + by).clamp(0, 0xFFFF) as u16);
-    prop_oneof![3 => near, 1 => any::<u16>()]
+    prop_oneof![3 => near, 1 => 0..48_u16, 1 => any::<u16>()]
 }
 
 fn access() -> impl Strategy<Value = Access> {
@@ -325,7 +325,9 @@ fn mapping() -> impl Strategy<Value = Mapping> {
             words
         ])),
     ];
-    (address(), proptest::collection::vec(entry.prop_map(Entry), 0..120))
+    // Mostly where registers are asked for.
+    let start = prop_oneof![3 => 0..24_u16, 1 => address()];
+    (start, proptest::collection::vec(entry.prop_map(Entry), 0..120))
         .prop_map(|(start, entries)| Mapping { start, entries })
 }
 
