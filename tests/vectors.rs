@@ -3,8 +3,9 @@
 //! The head is written by hand: what it is, its `source`, the `hex` as pasted, the true `direction`
 //! and `check`, the codes of its `problems`, if it has some, and its `protocol`, if that is not
 //! Modbus RTU. `before` has telegrams that came before it on the line, parted by `|`; `device` names
-//! the device whose table is to be used. Behind `---` stands what Buslens makes of it; `BLESS=1 cargo
-//! test --test vectors` rewrites that part, and only that part.
+//! the device whose table is to be used, `as` a protocol that a person chooses because the bytes do
+//! not tell it. Behind `---` stands what Buslens makes of it; `BLESS=1 cargo test --test vectors`
+//! rewrites that part, and only that part.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -12,7 +13,8 @@ use std::path::{Path, PathBuf};
 
 use buslens::field::{Field, Severity, Value, leaves};
 use buslens::modbus::{KINDS, OTHER_KINDS};
-use buslens::tool::{Certainty, Detail, Options, PROFILES, Report, Telegram, Verdict, decode};
+use buslens::profibus;
+use buslens::tool::{Certainty, Detail, Options, PROFILES, PROTOCOLS, Report, Telegram, Verdict, decode};
 
 #[test]
 fn every_vector_reads_as_written() {
@@ -73,11 +75,35 @@ fn every_kind_has_a_vector() {
     }
 }
 
+#[test]
+fn every_protocol_and_every_profibus_kind_has_a_vector() {
+    let mut seen = BTreeSet::new();
+    let mut kinds = BTreeSet::new();
+    for path in vectors() {
+        let text = std::fs::read_to_string(path).unwrap();
+        let (report, index) = Vector::parse(&text).decode();
+        let telegram = &report.telegrams[index];
+        seen.insert(telegram.choice.protocol.key);
+        if telegram.choice.protocol.key.starts_with("profibus") {
+            let kind = report.detail(index).unwrap().kind.to_string();
+            kinds.insert((kind, telegram.guess.direction.key()));
+        }
+    }
+    for protocol in PROTOCOLS {
+        assert!(seen.contains(protocol.key), "no vector of {}", protocol.key);
+    }
+    for kind in profibus::KINDS.iter().chain(profibus::OTHER_KINDS) {
+        let named = (kind.spec.label.to_owned(), kind.direction.key());
+        assert!(kinds.contains(&named), "no vector of {}", kind.spec.key);
+    }
+}
+
 /// All 71 telegrams that the Memograph manual prints: 58 right, 13 with a slip.
 #[test]
 fn the_memograph_manual_is_complete() {
     let (mut right, mut wrong) = (0, 0);
-    for path in vectors().iter().filter(|path| path.parent().unwrap().ends_with("memograph")) {
+    let printed = |path: &&PathBuf| path.file_stem().unwrap().to_string_lossy().starts_with("2_6_");
+    for path in vectors().iter().filter(printed) {
         let text = std::fs::read_to_string(path).unwrap();
         let (report, index) = Vector::parse(&text).decode();
         match report.telegrams[index].verdict {
@@ -112,7 +138,12 @@ impl<'a> Vector<'a> {
             let known = PROFILES.iter().copied().find(|profile| profile.key == key);
             known.unwrap_or_else(|| panic!("no device {key}"))
         });
-        let report = decode(&(before + self.head("hex")), Options { device, ..Options::default() });
+        let protocol = self.find("as").map(|key| {
+            let known = PROTOCOLS.iter().copied().find(|protocol| protocol.key == key);
+            known.unwrap_or_else(|| panic!("no protocol {key}"))
+        });
+        let options = Options { device, protocol, ..Options::default() };
+        let report = decode(&(before + self.head("hex")), options);
         let last = report.telegrams.len().saturating_sub(1);
         (report, last)
     }
@@ -170,6 +201,14 @@ fn show(report: &Report, index: usize, detail: &Detail) -> String {
     }
     for remark in &telegram.line.remarks {
         writeln!(text, "text {}..{}: {}", remark.span.from, remark.span.to, remark.message).unwrap();
+    }
+    if let Some(step) = &detail.step {
+        let repeated = if step.repeated { ", repeated" } else { "" };
+        writeln!(text, "job {}: {}{repeated}", step.job, step.state.key()).unwrap();
+        for problem in &step.problems {
+            let (from, to) = (problem.span.from, problem.span.to);
+            writeln!(text, "job {from}..{to} {}: {}", problem.code, problem.message).unwrap();
+        }
     }
     for problem in &detail.device.problems {
         writeln!(text, "device {}: {}", problem.code, problem.message).unwrap();

@@ -72,9 +72,11 @@ impl Task {
     /// Bytes of a register, or of the parameter's value.
     fn width(&self) -> usize {
         match self.target {
-            Target::Area(Area { long: true, .. }) => 4,
+            Target::Area(Area { length: Some(length), .. }) => *length,
             Target::Parameter(parameter) if self.by_index() => parameter.length.unwrap_or(4),
             Target::Area(_) if self.by_index() => 4,
+            // Only services for 32 bits reach more than two bytes in one address.
+            Target::Parameter(Parameter { length: Some(length @ 4..), .. }) => *length,
             _ => 2,
         }
     }

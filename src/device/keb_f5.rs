@@ -190,4 +190,7 @@ pub(super) const COMMAND: &[Bits] = &[
 /// What both buses add to the address of an inverter parameter.
 const INVERTER: u16 = 0x2000;
 
+/// The indices of inverter parameters, whose subindex is a set mask.
+pub const INVERTER_INDICES: std::ops::RangeInclusive<u16> = INVERTER..=0x5EFF;
+
 const SOURCE: &str = "KEB COMBIVERT F5 PROFIBUS-DP operator, 6.4, 8.1, 9.1.1 and 10.2";

@@ -46,8 +46,10 @@ static AREAS: &[Area] = &[
         "KEB COMBIVERT F5 Modbus operator, 2.2",
     ),
     Area::new(0x5F00, OPERATOR_PARAMETER).blocks(0x32, 1, 0x5F00),
-    Area::new(0x5F32, mapping_entry("read_mapping_entry", "Read mapping entry")).blocks(100, 1, 0).long(),
-    Area::new(0x5F96, mapping_entry("write_mapping_entry", "Write mapping entry")).blocks(100, 1, 0).long(),
+    Area::new(0x5F32, mapping_entry("read_mapping_entry", "Read mapping entry")).blocks(100, 1, 0).length(4),
+    Area::new(0x5F96, mapping_entry("write_mapping_entry", "Write mapping entry"))
+        .blocks(100, 1, 0)
+        .length(4),
     Area::new(0x5FFA, OPERATOR_PARAMETER).blocks(6, 1, 0x5FFA),
 ];
 
@@ -219,7 +221,7 @@ const fn operator(register: u16, id: &'static str, spec: Spec) -> Parameter {
     Parameter::new(register, id, spec.source(SOURCE))
 }
 
-const SECOND_HALF: &str = "second half of the 32-bit entry before";
+const SECOND_HALF: &str = "empty, or second half of a 32-bit entry";
 
 const WITH_BROADCASTS: &str = "Broadcasts count, too.";
 

@@ -72,9 +72,9 @@ pub struct Area {
     /// The number of the first block in the manual's words: channel 1. `None` where blocks have none.
     pub first: Option<u64>,
     pub access: Access,
-    /// Each address holds 32 bits, which only services for such values reach.
-    pub long: bool,
     pub content: Content,
+    /// Bytes of a value, where one address holds more than a register of 16 bits.
+    pub length: Option<usize>,
 }
 
 /// Whether the manual lets a client read or write it.
@@ -195,10 +195,26 @@ impl Settings {
 }
 
 impl Profile {
-    /// Takes from a new value how the device is set up from then on; says whether that changes it.
-    pub fn learn(&self, address: u16, subindex: u8, value: u32, settings: &mut Settings) -> bool {
+    /// The area that has `address`.
+    pub fn area(&self, address: u16) -> Option<&Area> {
+        self.areas.iter().find(|area| (area.from..=area.last()).contains(&address))
+    }
+
+    /// Takes from a new value of `width` bytes how the device is set up from then on; says whether
+    /// that changes it.
+    pub fn learn(
+        &self,
+        address: u16,
+        subindex: u8,
+        value: u32,
+        width: usize,
+        settings: &mut Settings,
+    ) -> bool {
         let inside = |lesson: &&Lesson| (lesson.from..lesson.from + lesson.count).contains(&address);
         let Some(lesson) = self.lessons.iter().find(inside) else { return false };
+        if self.area(address).and_then(|area| area.length).is_some_and(|length| width < length) {
+            return false;
+        }
         let before = settings.clone();
         (lesson.learn)(usize::from(address - lesson.from), subindex, value, settings);
         *settings != before
@@ -222,7 +238,7 @@ impl Area {
     /// One block of one readable and writable number.
     pub const fn new(from: u16, spec: Spec) -> Self {
         let access = Access::ReadWrite;
-        Self { spec, from, stride: 1, count: 1, first: None, access, long: false, content: Content::Value }
+        Self { spec, from, stride: 1, count: 1, first: None, access, content: Content::Value, length: None }
     }
 
     /// `count` blocks of `stride` addresses, numbered from `first` in the manual's words.
@@ -243,8 +259,8 @@ impl Area {
         self
     }
 
-    pub const fn long(mut self) -> Self {
-        self.long = true;
+    pub const fn length(mut self, length: usize) -> Self {
+        self.length = Some(length);
         self
     }
 

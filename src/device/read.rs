@@ -1,6 +1,6 @@
 //! Reading registers and parameters by a device's table.
 
-use super::{Access, Area, Content, Mapping, Parameter, Part, Profile, Settings};
+use super::{Access, Area, Content, Mapping, Parameter, Part, Profile, Settings, keb_f5};
 use crate::field::{Argument, Field, Message, Numbering, Order, Problem, Role, Span, Spec, Value, hex_value};
 use crate::message;
 use crate::walk::{self, Telegram, Walk, Walker};
@@ -63,18 +63,27 @@ impl Said {
         self.problems.iter().chain(of_blocks)
     }
 
-    /// The first few blocks in a sentence: "universal channel 6 = 123.456, good".
+    /// The first few blocks in a sentence: "universal channel 6 = 123.456, good". Blocks of a kind
+    /// that are only asked for are said together: "universal channel 1 to universal channel 40".
     pub fn sentence(&self) -> Option<Message> {
         const SHOWN: usize = 3;
+        let alike = |one: &Block, other: &Block| {
+            std::ptr::eq(one.field.spec, other.field.spec) && one.is_only_named() && other.is_only_named()
+        };
+        let runs: Vec<&[Block]> = self.blocks.chunk_by(alike).collect();
         let mut said: Option<Message> = None;
-        for block in self.blocks.iter().take(SHOWN) {
-            let next = block.sentence();
+        for run in runs.iter().take(SHOWN) {
+            let next = match run {
+                [first, .., last] => message!("{from} to {to}", from = first.label(), to = last.label()),
+                [only] => only.sentence(),
+                [] => continue,
+            };
             said = Some(match said {
                 Some(said) => message!("{said}; {next}", said = said, next = next),
                 None => next,
             });
         }
-        match self.blocks.len().checked_sub(SHOWN) {
+        match runs.len().checked_sub(SHOWN) {
             None | Some(0) => said,
             Some(more) => said.map(|said| message!("{said}; and {more} more", said = said, more = more)),
         }
@@ -82,6 +91,11 @@ impl Said {
 }
 
 impl Block {
+    /// The telegram has no values of it.
+    fn is_only_named(&self) -> bool {
+        self.field.value == Value::Group && self.field.children.is_empty()
+    }
+
     /// "Status word (Sy.51)", "Universal channel 6".
     pub fn label(&self) -> Message {
         match self.id {
@@ -189,10 +203,24 @@ impl Profile {
             ));
         }
         let mapping = settings.mapping(registers.access);
+        let mapped = self.area(registers.start).is_some_and(|area| matches!(area.content, Content::Mapped));
+        if mapped && registers.count > MOST_MAPPED {
+            said.problems.push(Problem::error(
+                "too-many-for-device",
+                registers.span,
+                message!(
+                    "{count} registers at once; a mapping list has at most {most}",
+                    count = registers.count,
+                    most = MOST_MAPPED
+                ),
+            ));
+        }
+        // What goes past the last address is nothing that a table could know.
+        let count = registers.count.min(usize::from(u16::MAX - registers.start) + 1);
         let mut done = 0;
-        while done < registers.count {
-            let Ok(address) = u16::try_from(usize::from(registers.start) + done) else { break };
-            let here = Here { registers, address, left: registers.count - done, hex: self.hex_addresses };
+        while done < count {
+            let address = registers.start + done as u16;
+            let here = Here { registers, address, left: count - done, hex: self.hex_addresses };
             let block = self.block(&here, mapping);
             done += usize::from(block.to - block.from) + 1;
             said.blocks.push(block);
@@ -209,6 +237,8 @@ impl Profile {
         value: Option<(&[u8], Order)>,
         span: Span,
     ) -> Said {
+        // No number has more bytes.
+        let value = value.filter(|(bytes, _)| bytes.len() <= 8);
         let big_endian = value.map(|(bytes, order)| Order::Big.bytes(order.number(bytes), bytes.len()));
         let width = value.map_or(0, |(bytes, _)| bytes.len());
         let registers =
@@ -219,23 +249,16 @@ impl Profile {
                 let mut block = here.single(&parameter.spec, None, parameter.access);
                 block.id = parameter.id;
                 if let Some(length) = parameter.length.filter(|length| value.is_some() && width < *length) {
-                    block.field.problems.push(Problem::warning(
-                        "value-too-short",
-                        span,
-                        message!(
-                            "{name} has {length}; the telegram carries {width}",
-                            name = Argument::Term(parameter.spec.label),
-                            length = Message::bytes(length),
-                            width = width
-                        ),
-                    ));
+                    block.field.problems.push(too_short(&parameter.spec, length, width, span));
                 }
                 block
             }
             None => self.block(&here, &Mapping::default()),
         };
         // The subindex is a set mask only where the table does not use it otherwise.
-        if self.named(index, Some(subindex)).is_none_or(|parameter| parameter.subindex.is_none()) {
+        if keb_f5::INVERTER_INDICES.contains(&index)
+            && self.named(index, Some(subindex)).is_none_or(|parameter| parameter.subindex.is_none())
+        {
             let sets = set_names(subindex);
             block.note = Some(match block.note {
                 Some(note) => message!("{note}; {sets}", note = note, sets = sets),
@@ -278,16 +301,20 @@ impl Profile {
 
     fn block(&'static self, here: &Here<'_>, mapping: &Mapping) -> Block {
         if let Some(parameter) = self.named(here.address, None) {
-            let mut block = here.single(&parameter.spec, None, parameter.access);
+            let mut block = here.whole(&parameter.spec, None, parameter.access, parameter.length);
             block.id = parameter.id;
             return block;
         }
-        let Some(area) = self.areas.iter().find(|area| (area.from..=area.last()).contains(&here.address))
-        else {
+        let Some(area) = self.area(here.address) else {
             let next = self.areas.iter().map(|area| area.from).filter(|from| *from > here.address).min();
             return here.unknown(next);
         };
         match area.content {
+            Content::Value if area.length.is_some() => {
+                let number =
+                    area.first.map(|first| Numbering::At(first + u64::from(here.address - area.from)));
+                here.whole(&area.spec, number, area.access, area.length)
+            }
             Content::Value => here.values(area, &[], &area.spec),
             Content::Parts(parts) => here.values(area, parts, &area.spec),
             Content::Telegram { read, write } => {
@@ -303,7 +330,12 @@ impl Profile {
         let number = Some(Numbering::At(here.address.into()));
         let Some((n, entry)) = mapping.entry(here.address) else {
             let mut block = here.single(&area.spec, number, area.access);
-            block.note = Some(message!("which parameter it is, only the mapping list tells"));
+            block.note = Some(match mapping.entries.len() {
+                0 => message!("which parameter it is, only the mapping list tells"),
+                known => {
+                    message!("the mapping list, as far as it is known, has {known} entries", known = known)
+                }
+            });
             return block;
         };
         let address = 0x2000_u16.wrapping_add(entry.parameter());
@@ -349,6 +381,20 @@ impl Profile {
     }
 }
 
+/// A value of which a telegram has only a part.
+fn too_short(spec: &'static Spec, length: usize, width: usize, span: Span) -> Problem {
+    Problem::warning(
+        "value-too-short",
+        span,
+        message!(
+            "{name} has {length}; the telegram carries {width} of them",
+            name = Argument::Term(spec.label),
+            length = Message::bytes(length),
+            width = width
+        ),
+    )
+}
+
 /// "sets 0, 2" of a set mask.
 fn set_names(mask: u8) -> Message {
     let sets: Vec<String> =
@@ -389,6 +435,25 @@ impl Here<'_> {
         self.numbers(spec, number, access, &[(spec, 1)], 1)
     }
 
+    /// A number of one register, of which a narrow register has only a part.
+    fn whole(
+        &self,
+        spec: &'static Spec,
+        number: Option<Numbering>,
+        access: Access,
+        length: Option<usize>,
+    ) -> Block {
+        let Registers { span, width, .. } = *self.registers;
+        let Some(length) = length.filter(|length| width < *length) else {
+            return self.single(spec, number, access);
+        };
+        let mut block = self.cut(spec, 1);
+        block.field.number = number;
+        self.check_access(&mut block.field, access);
+        block.field.problems.push(too_short(spec, length, width, span));
+        block
+    }
+
     /// The area's block at this address, with the parts that the telegram has of it.
     fn values(&self, area: &'static Area, parts: &'static [Part], spec: &'static Spec) -> Block {
         let (index, inside) =
@@ -411,19 +476,6 @@ impl Here<'_> {
             wanted.push((part, to - from));
         }
         let widths: Vec<_> = wanted.iter().map(|(part, registers)| (part.spec, *registers)).collect();
-        if area.long && self.registers.width < LONG {
-            let mut block = self.cut(spec, there);
-            block.field.number = number;
-            block.field.problems.push(Problem::error(
-                "half-value",
-                self.registers.span,
-                message!(
-                    "{label} has 32 bits in one address: services for 16 bits do not reach it",
-                    label = block.field.label()
-                ),
-            ));
-            return block;
-        }
         let mut block = self.numbers(spec, number, area.access, &widths, there);
         let Some((at, (part, _))) =
             wanted.iter().enumerate().find(|(_, (part, registers))| *registers < usize::from(part.registers))
@@ -440,7 +492,7 @@ impl Here<'_> {
             "block-cut",
             whole.span,
             message!(
-                "{label} is cut: {there} of its {stride} registers are here, and {part} is not whole",
+                "{label} is cut: with {there} of its {stride} registers, {part} is not whole",
                 label = whole.label(),
                 there = there,
                 stride = area.stride,
@@ -503,16 +555,12 @@ impl Here<'_> {
     /// Registers that the manual does not name, up to the next that it does.
     fn unknown(&self, next: Option<u16>) -> Block {
         let count = next.map_or(self.left, |next| usize::from(next - self.address).min(self.left));
-        let mut block = self.cut(&NOT_IN_MANUAL, count);
+        let mut block = self.cut(if self.hex { &NOT_IN_HEX_MANUAL } else { &NOT_IN_MANUAL }, count);
         block.field.number = Some(Numbering::At(self.address.into()));
         block.field.problems.push(Problem::warning(
             "not-in-manual",
             block.field.span,
-            message!(
-                "the manual has nothing at {from} to {to}",
-                from = u64::from(block.from),
-                to = u64::from(block.to)
-            ),
+            message!("the manual has nothing at {addresses}", addresses = block.registers()),
         ));
         block
     }
@@ -554,9 +602,12 @@ impl Telegram for Numbers {
     }
 }
 
-/// Bytes of a register that holds 32 bits.
-const LONG: usize = 4;
+/// Entries of a mapping list, each a word.
+const MOST_MAPPED: usize = 100;
 
-static NOT_IN_MANUAL: Spec = Spec::new("not_in_manual", "Register")
+static NOT_IN_MANUAL: Spec = UNKNOWN;
+static NOT_IN_HEX_MANUAL: Spec = UNKNOWN.hex_numbers();
+
+const UNKNOWN: Spec = Spec::new("not_in_manual", "Register")
     .role(Role::Unknown)
     .note("The device's manual does not name this address.");

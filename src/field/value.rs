@@ -1,4 +1,4 @@
-use super::{Argument, Format, Message, Name, Numbering, Span, Spec};
+use super::{Argument, Bits, Format, Message, Name, Numbering, Span, Spec};
 use crate::message;
 
 /// What a field held.
@@ -178,29 +178,63 @@ pub fn parse_float(text: &str, width: usize) -> Option<u64> {
     (finite || infinity(&text)).then_some(raw)
 }
 
-/// "handshake 1, 2 bytes, write": the flags that are set and the numbers of the other parts.
+/// "handshake 1, 2 bytes, write": the flags that are set and the numbers of the other parts. Three
+/// or more flags in a row are "set 0 to set 7".
 fn bits(raw: u64, spec: &'static Spec) -> Message {
     let mut said: Option<Message> = None;
-    for part in spec.bits {
-        let value = part.of(raw);
-        let next = match (part.name(value), part.count) {
-            (Some(Name { label: "", .. }), _) => continue,
-            (Some(name), _) => Message::term(name.label),
-            (None, 1) if value == 0 || part.reserved => continue,
-            (None, 1) => Message::term(part.label),
-            (None, _) if part.reserved => continue,
-            (None, count) => message!(
-                "{part} {n}",
-                part = Argument::Term(part.label),
-                n = number_text(value, count.div_ceil(8) as usize, part.format)
+    let mut parts = spec.bits;
+    let mut known = 0;
+    while let Some((part, rest)) = parts.split_first() {
+        let run = parts.iter().take_while(|part| is_set(part, raw)).count();
+        let (next, left) = match parts.get(run.saturating_sub(1)) {
+            Some(last) if run > 2 => (
+                Some(message!(
+                    "{from} to {to}",
+                    from = Argument::Term(part.label),
+                    to = Argument::Term(last.label)
+                )),
+                parts.split_at(run).1,
             ),
+            _ => (part_said(part, raw), rest),
         };
-        said = Some(match said {
-            Some(said) => message!("{said}, {next}", said = said, next = next),
-            None => next,
-        });
+        known |= parts.iter().take(parts.len() - left.len()).fold(0, |mask, part| part.put(mask, u64::MAX));
+        parts = left;
+        if let Some(next) = next {
+            said = Some(with(said, next));
+        }
+    }
+    if raw & !known != 0 {
+        said = Some(with(said, message!("bits without a meaning")));
     }
     said.unwrap_or(message!("nothing set"))
+}
+
+/// Whether a part is a flag without names, and set.
+fn is_set(part: &Bits, raw: u64) -> bool {
+    part.count == 1 && !part.reserved && part.names.is_empty() && part.of(raw) == 1
+}
+
+/// What a part says, where it says something.
+fn part_said(part: &'static Bits, raw: u64) -> Option<Message> {
+    let value = part.of(raw);
+    match (part.name(value), part.count) {
+        (Some(Name { label: "", .. }), _) => None,
+        (Some(name), _) => Some(Message::term(name.label)),
+        (None, _) if part.reserved => (value != 0).then(|| message!("reserved bits")),
+        (None, 1) => (value != 0).then(|| Message::term(part.label)),
+        (None, count) => Some(message!(
+            "{part} {n}",
+            part = Argument::Term(part.label),
+            n = number_text(value, count.div_ceil(8) as usize, part.format)
+        )),
+    }
+}
+
+fn with(said: Option<Message>, next: Message) -> Message {
+    match said {
+        Some(said) => message!("{said}, {next}", said = said, next = next),
+        None => next,
+    }
 }
 
 /// "16, 18 on": which of eight switches are, the first one's number where it is known.
@@ -223,6 +257,7 @@ fn switches(raw: u64, number: Option<Numbering>) -> Message {
 fn shown_otherwise(raw: u64, width: usize, format: Format) -> Option<Message> {
     match format {
         Format::Decimal | Format::Hex | Format::Switches | Format::Text => None,
+        Format::Float if float(raw, width).starts_with("NaN") => None,
         Format::Signed | Format::Float | Format::Places(_) => {
             Some(message!("{hex}", hex = hex_value(raw, width)))
         }

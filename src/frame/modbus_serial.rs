@@ -81,10 +81,8 @@ pub fn exchange(bytes: &[u8]) -> Option<u64> {
 
 /// Takes from the request what `pdu`, its response, does not repeat.
 pub fn answer(pdu: &mut Pdu, request: &Content<'_>) {
-    if let Content::Modbus { pdu: asked, .. } = request
-        && let Some(access) = asked.body.access()
-    {
-        pdu.body.answer(&access);
+    if let Content::Modbus { pdu: asked, .. } = request {
+        pdu.answer(asked);
     }
 }
 

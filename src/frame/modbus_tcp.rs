@@ -89,7 +89,8 @@ fn first(bytes: &[u8]) -> usize {
 
 fn fit(bytes: &[u8], settings: &Settings) -> Fit {
     /// Small numbers with zeros before them are common: an RTU request for two registers from 0
-    /// looks like a header, too. So the function code counts as much as the length.
+    /// looks like a header, too. So the function code counts as much as the length, but one that
+    /// belongs on serial lines only half: two bytes of a CRC can be unit and such a code.
     const LENGTH: u32 = 12;
     const FUNCTION: u32 = 12;
     let length = told(bytes);
@@ -98,8 +99,8 @@ fn fit(bytes: &[u8], settings: &Settings) -> Fit {
     let function = bytes.get(HEADER..to).map_or(PduFit::Nothing, |pdu| pdu_fit(pdu, settings.dialect));
     let bits = match function {
         PduFit::Nothing => 0,
-        PduFit::Function => FUNCTION / 2,
-        PduFit::Length => FUNCTION,
+        PduFit::Length if !serial_only(bytes, settings) => FUNCTION,
+        PduFit::Length | PduFit::Function => FUNCTION / 2,
     };
     match length {
         Some(_) if !identified(bytes) && whole => Fit {
@@ -119,6 +120,11 @@ fn fit(bytes: &[u8], settings: &Settings) -> Fit {
         },
         _ => Fit { bits: 0, reason: message!("it does not begin with a Modbus TCP header") },
     }
+}
+
+/// Whether the function of `bytes` is for serial lines.
+fn serial_only(bytes: &[u8], settings: &Settings) -> bool {
+    Tcp::expect(bytes, Direction::Request, settings.dialect).pdu.kind.serial_only
 }
 
 impl Telegram for Tcp {

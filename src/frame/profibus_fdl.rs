@@ -27,7 +27,7 @@ pub static PROTOCOL: Protocol = Protocol {
     label: "PROFIBUS",
     fit,
     verdict,
-    first: |bytes| Fdl::length(bytes).map_or(bytes.len(), |length| length.min(bytes.len())),
+    first,
     speaker: Speaker::Frame(Fdl::direction),
     exchange,
     waiting: 1,
@@ -395,28 +395,43 @@ impl Frame for Fdl {
 }
 
 fn fit(bytes: &[u8], _: &Settings) -> Fit {
-    /// Start and end delimiters, the check; a length repeated; two bytes with nothing to check them.
+    /// Start and end delimiters; the check; a length repeated; two bytes with nothing to check them.
     const DELIMITED: u32 = 16;
     const CHECK: u32 = 8;
     const REPEATED: u32 = 8;
     const SHORT: u32 = 8;
-    let none = Fit { bits: 0, reason: message!("it is no PROFIBUS frame") };
-    let Some(length) = Fdl::length(bytes).filter(|length| *length <= bytes.len()) else { return none };
+    let length = Fdl::length(bytes).filter(|length| *length <= bytes.len()).unwrap_or_default();
     let frame = Span::new(0, length).of(bytes);
-    match frame[0] {
-        SD4 | SC if length == bytes.len() || Fdl::length(&bytes[length..]).is_some() => Fit {
+    match (frame, bytes) {
+        ([SD4 | SC, ..], _) if length == bytes.len() || Fdl::length(&bytes[length..]).is_some() => Fit {
             bits: SHORT,
             reason: message!("its first byte and its length are those of a PROFIBUS frame"),
         },
-        start @ (SD1 | SD2 | SD3) if frame.ends_with(&[END]) => {
+        ([start @ (SD1 | SD2 | SD3), .., END], _) => {
             let checked = if Fdl::check_matches(frame) { CHECK } else { 0 };
-            let repeated = if start == SD2 { REPEATED } else { 0 };
+            let repeated = if *start == SD2 { REPEATED } else { 0 };
             Fit {
                 bits: DELIMITED + checked + repeated,
                 reason: message!("it begins and ends as a PROFIBUS frame of this length does"),
             }
         }
-        _ => none,
+        (_, [SD2, length, again, SD2, ..]) if length == again => Fit {
+            bits: DELIMITED,
+            reason: message!("it begins as a PROFIBUS frame does, though its end is not where it should be"),
+        },
+        (_, [SD1 | SD2 | SD3, .., END]) => Fit {
+            bits: SHORT,
+            reason: message!("it begins and ends as a PROFIBUS frame does, though its length is wrong"),
+        },
+        _ => Fit { bits: 0, reason: message!("it is no PROFIBUS frame") },
+    }
+}
+
+/// The first frame's length, where another frame begins behind it; else its length may be wrong.
+fn first(bytes: &[u8]) -> usize {
+    match Fdl::length(bytes).filter(|length| *length < bytes.len()) {
+        Some(length) if Fdl::length(&bytes[length..]).is_some() => length,
+        _ => bytes.len(),
     }
 }
 
@@ -655,7 +670,7 @@ const ACCESS_POINT: Spec =
         Name { value: 59, label: "59: Get_Cfg", note: "" },
         Name { value: 60, label: "60: Slave_Diag", note: "" },
         Name { value: 61, label: "61: Set_Prm", note: "" },
-        Name { value: 62, label: "62: Chk_Cfg, or a master", note: "" },
+        Name { value: 62, label: "Chk_Cfg, or a master", note: "" },
     ]);
 
 static CHECK: Spec = Spec::new("fcs", "FCS")

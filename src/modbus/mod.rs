@@ -39,7 +39,7 @@ use choice::Choice;
 pub use length::Length;
 pub use registers::{Layout, Table};
 
-use crate::field::{Direction, Message, Role, Spec};
+use crate::field::{Direction, Message, Role, Severity, Spec};
 use crate::message;
 use crate::walk::{Telegram, Walk, Walker};
 
@@ -132,7 +132,14 @@ pub struct Kind {
 impl Kind {
     /// A PDU of this kind with nothing filled in.
     pub fn pdu(&'static self, dialect: &'static Dialect) -> Pdu {
-        Pdu { function: self.function, direction: self.direction, dialect, kind: self, body: (self.new)() }
+        Pdu {
+            function: self.function,
+            direction: self.direction,
+            dialect,
+            kind: self,
+            body: (self.new)(),
+            asked: None,
+        }
     }
 }
 
@@ -241,6 +248,8 @@ pub struct Pdu {
     pub dialect: &'static Dialect,
     pub kind: &'static Kind,
     pub body: Box<dyn Body>,
+    /// What the request was to write, where this is its response: first one, number, values.
+    asked: Option<(Option<u16>, usize, Vec<u32>)>,
 }
 
 impl Pdu {
@@ -273,6 +282,27 @@ impl Pdu {
         Self { body, ..kind.pdu(&STANDARD) }
     }
 
+    /// Takes from the request what a response does not repeat, before the response is read.
+    pub fn answer(&mut self, request: &Self) {
+        let Some(access) = request.body.access() else { return };
+        self.body.answer(&access);
+        self.asked = access.write.then(|| (access.start, access.count, access.values.to_vec()));
+    }
+
+    /// Says so where a response confirms something else than was to be written.
+    fn check_asked(&self, w: &mut dyn Walker) {
+        let (Some((start, count, values)), Some(done)) = (&self.asked, self.body.access()) else { return };
+        let same_values = done.values.is_empty() || done.values == values;
+        if done.write && (done.start, done.count, same_values) != (*start, *count, true) {
+            w.remark(
+                &FUNCTION,
+                Severity::Warning,
+                "not-as-asked",
+                message!("this does not confirm what the request was to write"),
+            );
+        }
+    }
+
     /// An empty PDU to read a telegram of `function` into.
     pub fn expect(function: u8, direction: Direction, dialect: &'static Dialect) -> Self {
         Self { function, ..Self::kind(function, direction, dialect).pdu(dialect) }
@@ -290,7 +320,9 @@ impl Telegram for Pdu {
         if function != self.function {
             *self = Self::expect(function, direction, dialect);
         }
-        self.body.walk(w)
+        self.body.walk(w)?;
+        self.check_asked(w);
+        Ok(())
     }
 }
 

@@ -373,8 +373,11 @@ pub fn likeness(bytes: &[u8], settings: &Settings) -> u32 {
     const INDEX: u32 = 6;
     const ERROR: u32 = 8;
     const CLEAN: u32 = 2;
-    const IDLE: u32 = 3;
-    let channel = Channel::read(bytes, Direction::Response, settings);
+    /// More than anything else sees in zeros.
+    const IDLE: u32 = 7;
+    let [request, channel] =
+        [Direction::Request, Direction::Response].map(|direction| Channel::read(bytes, direction, settings));
+    let clean = |channel: &Channel| channel.unused.iter().all(|byte| *byte == 0);
     if channel.control & 0x0C != 0 {
         return 0;
     }
@@ -385,7 +388,7 @@ pub fn likeness(bytes: &[u8], settings: &Settings) -> u32 {
         _ => match channel.refusal() {
             Some(refusal) if refusal.name().is_some() => INDEX + ERROR,
             Some(_) => INDEX,
-            None if channel.unused.iter().all(|byte| *byte == 0) => INDEX + CLEAN,
+            None if clean(&request) || clean(&channel) => INDEX + CLEAN,
             None => INDEX,
         },
     }
@@ -403,6 +406,8 @@ pub fn leaning(bytes: &[u8]) -> i32 {
         (Service::Read, _) => -2,
         (Service::Write, 1) if more => 3,
         (Service::Write, 1) if *first == 0 => 0,
+        // A request for one byte, or the confirmation of two, the second of them 0.
+        (Service::Write, 1) => -1,
         (Service::Write, _) => -3,
         _ => 0,
     }

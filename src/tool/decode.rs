@@ -349,29 +349,32 @@ impl Report {
                     let start = written.and_then(|access| access.start);
                     if let (Some(profile), Some(access), Some(start)) = (profile, written, start) {
                         for (address, value) in (start..=u16::MAX).zip(access.values) {
-                            changed |= profile.learn(address, 0, *value, &mut settings.device);
+                            changed |=
+                                profile.learn(address, 0, *value, access.table.width, &mut settings.device);
                         }
                     }
                 }
-                Content::Profibus { slave, body, .. } => {
+                Content::Profibus { slave, kind, body } => {
                     if let Some(layout) = body.layout() {
                         changed = settings.frame.profibus.layout != layout;
                         settings.frame.profibus.layout = layout;
                     }
-                    let Some(channel) = body.channel() else { continue };
-                    let known = slaves.iter().position(|(other, _)| *other == slave);
-                    let at = known.unwrap_or_else(|| {
-                        slaves.push((slave, Jobs::default()));
-                        slaves.len() - 1
-                    });
-                    let step = slaves[at].1.next(channel);
-                    let done = step.as_ref().filter(|step| step.state == jobs::State::Done);
-                    let written = done.filter(|_| channel.service() == Service::Write);
-                    if let (Some(profile), Some(value)) = (profile, written.and_then(|step| step.value)) {
-                        changed |=
-                            profile.learn(channel.index, channel.subindex, value, &mut settings.device);
+                    // Inputs and outputs that are only looked at are no cycle of the channel.
+                    if let Some(channel) = body.channel().filter(|_| kind.sap.is_none()) {
+                        let known = slaves.iter().position(|(other, _)| *other == slave);
+                        let at = known.unwrap_or_else(|| {
+                            slaves.push((slave, Jobs::default()));
+                            slaves.len() - 1
+                        });
+                        let step = slaves[at].1.next(channel);
+                        let done = step.as_ref().filter(|step| step.state == jobs::State::Done);
+                        let written = done.filter(|_| channel.service() == Service::Write);
+                        if let (Some(profile), Some(value)) = (profile, written.and_then(|step| step.value)) {
+                            let (index, subindex) = (channel.index, channel.subindex);
+                            changed |= profile.learn(index, subindex, value, 4, &mut settings.device);
+                        }
+                        self.telegrams[index].step = step;
                     }
-                    self.telegrams[index].step = step;
                 }
                 Content::Nothing(_) => {}
             }

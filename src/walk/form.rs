@@ -44,7 +44,7 @@ pub enum Content {
     Bytes {
         text: String,
     },
-    /// Bytes as characters, [`escaped`](crate::field::escaped) where they cannot be shown.
+    /// Bytes as characters, [`escaped`] where they cannot be shown.
     Text {
         text: String,
     },

@@ -142,7 +142,7 @@ impl<'a> dyn Walker + 'a {
         self.sized(spec, 4, value)
     }
 
-    /// `count` items (or `None`, see [`items`](Self::items)), each walked by `each`.
+    /// `count` items (or `None`, see [`items`](trait.Walker.html#tymethod.items)), each walked by `each`.
     pub fn list<T: Default>(
         &mut self,
         spec: &'static Spec,
@@ -154,7 +154,7 @@ impl<'a> dyn Walker + 'a {
         self.items(spec, &mut List { items, each }, count.into(), first)
     }
 
-    /// [`select`](Self::select) over a number of this type.
+    /// [`select`](trait.Walker.html#tymethod.select) over a number of this type.
     pub fn choose<T: Copy + Into<u64> + TryFrom<u64>>(
         &mut self,
         spec: &'static Spec,

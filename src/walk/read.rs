@@ -3,6 +3,7 @@ use super::{
 };
 use crate::field::{
     Argument, Check, Field, Format, Message, Numbering, Problem, Role, Severity, Span, Spec, Value, escaped,
+    number_text,
 };
 use crate::message;
 
@@ -116,28 +117,39 @@ impl Reader<'_> {
     /// Limits, and bits that must be 0.
     fn check_limits(&mut self, spec: &'static Spec, raw: u64) {
         for part in spec.bits.iter().filter(|part| part.reserved && part.of(raw) != 0) {
-            let message = message!(
-                "{label}: bits {from} to {to} are reserved and should be 0",
-                label = Argument::Term(spec.label),
-                from = part.from,
-                to = part.from + part.count - 1
-            );
+            let (label, from, to) = (Argument::Term(spec.label), part.from, part.from + part.count - 1);
+            let message = match part.count {
+                1 => message!("{label}: bit {n} is reserved and should be 0", label = label, n = from),
+                _ => message!(
+                    "{label}: bits {from} to {to} are reserved and should be 0",
+                    label = label,
+                    from = from,
+                    to = to
+                ),
+            };
             self.problem(Problem::warning("reserved-bits", self.last_span(), message));
         }
         if let (false, Some((from, to))) = (spec.allows(raw), spec.limits) {
-            let label = Argument::Term(spec.label);
-            let message = match to - from {
-                0 => message!("{label} is {raw}; it must be {to}", label = label, raw = raw, to = to),
+            let (label, raw, to) = (Argument::Term(spec.label), self.shown(spec, raw), self.shown(spec, to));
+            let message = match spec.limits {
+                Some((only, most)) if only == most => {
+                    message!("{label} is {raw}; only {to} is allowed", label = label, raw = raw, to = to)
+                }
                 _ => message!(
                     "{label} is {raw}; {from} to {to} are allowed",
                     label = label,
                     raw = raw,
-                    from = from,
+                    from = self.shown(spec, from),
                     to = to
                 ),
             };
             self.problem(Problem::error("out-of-range", self.last_span(), message));
         }
+    }
+
+    /// A number as the field just read shows its own.
+    fn shown(&self, spec: &'static Spec, raw: u64) -> String {
+        number_text(raw, self.last_span().len(), spec.format)
     }
 
     /// Takes a number that other things of the telegram determine, and notes it by its path.
@@ -224,10 +236,10 @@ impl Walker for Reader<'_> {
             && raw != expected
         {
             let message = message!(
-                "{label} is {raw}; by the rest of the telegram, it must be {expected}",
+                "{label} is {raw}; it must be {expected} here",
                 label = Argument::Term(spec.label),
-                raw = raw,
-                expected = expected
+                raw = self.shown(spec, raw),
+                expected = self.shown(spec, expected)
             );
             self.problem(Problem::error("count-mismatch", self.last_span(), message));
         }

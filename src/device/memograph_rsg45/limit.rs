@@ -181,7 +181,7 @@ impl Telegram for Limit {
 static NUMBER: Spec = Spec::new("limit", "Limit")
     .role(Role::Address)
     .limits(0, MOST)
-    .names(&[Name { value: 0, label: "none, a status follows", note: "" }])
+    .names(&[Name { value: 0, label: "no record", note: "" }])
     .note("The limit's number. After each reading the device goes on to the next active limit.")
     .source(SOURCE);
 
