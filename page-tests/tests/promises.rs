@@ -6,7 +6,8 @@ use serde_json::json;
 use thirtyfour::prelude::*;
 
 const ALL_SORTS: &str = "01 03 00 C8 00 03 84 35\n01 03 06 00 08 42 A4 F1 DE B0 F8\n05 06 0C 90 04 01 48 33\n\
-                         F8 03 00 00 00 01 90 63\n01 03 O0 C8\nhello";
+                         F8 03 00 00 00 01 90 63\n01 03 O0 C8\nhello\n00 01 00 00 00 06 FF 03 00 C8 00 03\n\
+                         68 0F 0F 68 01 02 5D 52 01 20 34 00 64 00 00 00 05 01 2C 9D 16";
 
 #[tokio::test(flavor = "multi_thread")]
 async fn axe_finds_nothing() -> Result {
@@ -20,8 +21,8 @@ async fn axe_finds_nothing() -> Result {
             assert_eq!(page.accessibility().await?, [""; 0], "menu, {name}, {theme}");
             page.click("#examples summary").await?;
             page.paste(ALL_SORTS).await?;
-            page.click(".layout summary").await?;
-            for telegram in 0..4 {
+            page.click("#layout summary").await?;
+            for telegram in 0..7 {
                 page.choose(telegram).await?;
                 assert_eq!(page.accessibility().await?, [""; 0], "telegram {telegram}, {name}, {theme}");
             }
@@ -66,7 +67,7 @@ async fn the_console_stays_empty() -> Result {
     let page = Page::open(DESKTOP, false).await?;
     page.paste(ALL_SORTS).await?;
     page.click("#telegram-1").await?;
-    page.click(".layout summary").await?;
+    page.click("#layout summary").await?;
     // The preload that nobody used would be told of after some seconds.
     tokio::time::sleep(std::time::Duration::from_secs(6)).await;
     assert_eq!(page.console().await?, [""; 0]);
@@ -94,11 +95,11 @@ async fn a_narrow_page_does_not_scroll_sideways() -> Result {
     let wide = "return document.documentElement.scrollWidth - document.documentElement.clientWidth";
     assert_eq!(page.value(wide).await?, json!(0), "empty");
     page.paste(ALL_SORTS).await?;
-    for telegram in 0..4 {
+    for telegram in 0..7 {
         page.choose(telegram).await?;
         assert_eq!(page.value(wide).await?, json!(0), "telegram {telegram}");
     }
-    page.click(".layout summary").await?;
+    page.click("#layout summary").await?;
     assert_eq!(page.value(wide).await?, json!(0), "layout");
     page.picture("decode-narrow").await?;
     page.close().await
@@ -129,7 +130,8 @@ async fn everything_is_reached_by_keyboard() -> Result {
         assert!(!outside, "{name} is in sight and large enough: {}", stop[2]);
         stops.push(name);
     }
-    let expected = ["skip", "theme", "input", "direction", "menu", "quiet", "list", "link"];
+    let expected =
+        ["skip", "theme", "input", "protocol", "direction", "device", "menu", "quiet", "list", "link"];
     assert_eq!(stops[..expected.len()], expected);
     for name in ["problems", "bar", "strip", "fields", "check", "layout"] {
         assert!(stops.iter().any(|stop| stop == name), "{name} is not reached: {stops:?}");

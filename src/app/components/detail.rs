@@ -47,11 +47,15 @@ pub fn Telegram(state: State) -> impl IntoView {
             on:keydown=move |event| go(state, &event)
         >
             <div inner_html=reading></div>
-            <details class="layout" hidden=move || state.decoded.with(|decoded| !has_registers(decoded))>
+            <details
+                id="views"
+                class="layout"
+                hidden=move || state.decoded.with(|decoded| !has_registers(decoded))
+            >
                 <summary>"Registers in every view"</summary>
                 <div inner_html=registers></div>
             </details>
-            <details class="layout" hidden=move || state.decoded.with(|decoded| decoded.shown.is_none())>
+            <details id="layout" class="layout" hidden=move || state.decoded.with(|decoded| decoded.shown.is_none())>
                 <summary>"How such a telegram is made"</summary>
                 <div inner_html=layout></div>
             </details>
