@@ -112,7 +112,7 @@ fn part_row(part: &Bits, value: u64, field: &Field, depth: usize) -> Markup {
     html! {
         tr role="row" hidden class=(role_class(field.spec.role)) data-span=(span_text(field.span)) data-depth=(depth) {
             th role="rowheader" scope="row" {
-                button.field type="button" data-stop="" tabindex="-1" title=(part.note) { (part.label) }
+                button.field type="button" data-stop="" tabindex="-1" title=(part.note) { (Message::term(part.label).sentence()) }
             }
             td.bytes role="cell" {
                 @if part.count == 1 { "bit " (part.from) } @else { "bits " (last) " to " (part.from) }
