@@ -1,9 +1,11 @@
 //! What holds for every telegram, whatever its bytes: run over all kinds, in the frame.
 
 use buslens::field::{Direction, Field, Value, leaves, problems};
-use buslens::frame::Frame;
-use buslens::frame::modbus_rtu::{AROUND, Rtu, SHORTEST};
-use buslens::modbus::{DIALECTS, Dialect, KINDS, Kind, OTHER_KINDS, Pdu, STANDARD};
+use buslens::frame::modbus_ascii::ASCII;
+use buslens::frame::modbus_rtu::RTU;
+use buslens::frame::modbus_serial::{Mode, Serial};
+use buslens::frame::{Cargo, Frame, PROTOCOLS, Protocol, Settings};
+use buslens::modbus::{DIALECTS, Dialect, KINDS, Kind, OTHER_KINDS, STANDARD};
 use buslens::tool::{Options, Verdict, decode};
 use buslens::walk::{self, Deviations, form, guide};
 use proptest::prelude::*;
@@ -43,15 +45,33 @@ fn bytes() -> impl Strategy<Value = Vec<u8>> {
     })
 }
 
-fn empty((dialect, kind): Spoken) -> Rtu {
-    Rtu { unit: 1, pdu: kind.pdu(dialect) }
+fn protocol() -> impl Strategy<Value = &'static Protocol> {
+    proptest::sample::select(PROTOCOLS)
+}
+
+fn mode() -> impl Strategy<Value = &'static Mode> {
+    prop_oneof![Just(&RTU), Just(&ASCII)]
+}
+
+/// An empty frame of any protocol to read `bytes` into.
+fn expect(
+    protocol: &Protocol,
+    bytes: &[u8],
+    direction: Direction,
+    dialect: &'static Dialect,
+) -> Box<dyn Frame> {
+    (protocol.expect)(bytes, direction, &Settings { dialect, ..Settings::default() })
+}
+
+fn empty(mode: &'static Mode, (dialect, kind): Spoken) -> Serial {
+    Serial { mode, unit: 1, pdu: kind.pdu(dialect) }
 }
 
 /// A valid telegram of `kind`, random by `seed`.
-fn sample(kind: Spoken, seed: u64) -> Rtu {
-    let mut rtu = empty(kind);
+fn sample(mode: &'static Mode, kind: Spoken, seed: u64) -> Serial {
+    let mut serial = empty(mode, kind);
     let mut state = seed;
-    walk::sample(&mut rtu, &mut |most| {
+    walk::sample(&mut serial, &mut |most| {
         // SplitMix64.
         state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = state;
@@ -61,15 +81,15 @@ fn sample(kind: Spoken, seed: u64) -> Rtu {
         if most == u64::MAX { z } else { z % (most + 1) }
     });
     // A broadcast must not read, and 248 to 255 are reserved.
-    rtu.unit = rtu.unit % 247 + 1;
-    rtu
+    serial.unit = serial.unit % 247 + 1;
+    serial
 }
 
 /// Problems that a sample may have: its fields are drawn one by one, and these rules are about several.
 const BETWEEN_FIELDS: &[&str] = &["address-overflow", "unused-bits", "response-too-long", "half-record"];
 
-fn write(rtu: &mut Rtu) -> Vec<u8> {
-    walk::write(rtu, &Deviations::default())
+fn write(frame: &mut dyn Frame) -> Vec<u8> {
+    walk::write(frame, &Deviations::default())
 }
 
 fn codes(fields: &[Field]) -> Vec<&'static str> {
@@ -90,27 +110,45 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(2000) })]
 
     #[test]
-    fn leaves_tile_any_bytes(bytes in bytes(), direction in direction(), dialect in dialect()) {
-        let mut rtu = Rtu::expect(&bytes, direction, dialect);
-        let reading = walk::read(&mut rtu, &bytes);
+    fn leaves_tile_any_bytes(
+        protocol in protocol(), bytes in bytes(), direction in direction(), dialect in dialect()
+    ) {
+        let mut frame = expect(protocol, &bytes, direction, dialect);
+        let reading = walk::read(frame.as_mut(), &bytes);
         assert_tiled(&reading.fields, bytes.len());
         // Saying it does not panic either.
-        let _ = rtu.meaning().sentence();
+        let _ = frame.meaning().sentence();
     }
 
     /// Any bytes at all are a value with deviations, and come back from it.
     #[test]
-    fn any_bytes_are_written_again(bytes in bytes(), direction in direction(), dialect in dialect()) {
-        let mut rtu = Rtu::expect(&bytes, direction, dialect);
-        let deviations = walk::read(&mut rtu, &bytes).deviations(&mut rtu);
-        prop_assert_eq!(walk::write(&mut rtu, &deviations), bytes);
+    fn any_bytes_are_written_again(
+        protocol in protocol(), bytes in bytes(), direction in direction(), dialect in dialect()
+    ) {
+        let mut frame = expect(protocol, &bytes, direction, dialect);
+        let deviations = walk::read(frame.as_mut(), &bytes).deviations(frame.as_mut());
+        prop_assert_eq!(walk::write(frame.as_mut(), &deviations), bytes);
+    }
+
+    /// From bytes to a form, and from the form, filled into an empty frame, to the same bytes.
+    #[test]
+    fn a_form_gives_the_same_telegram(
+        protocol in protocol(), bytes in bytes(), direction in direction(), dialect in dialect()
+    ) {
+        let mut frame = expect(protocol, &bytes, direction, dialect);
+        let deviations = walk::read(frame.as_mut(), &bytes).deviations(frame.as_mut());
+        let shown = form::form(frame.as_mut(), &deviations);
+        let mut filled = expect(protocol, &[], direction, dialect);
+        let entered = form::fill(filled.as_mut(), &shown).expect("a form fills what it was made of");
+        prop_assert_eq!(&form::form(filled.as_mut(), &entered), &shown);
+        prop_assert_eq!(walk::write(filled.as_mut(), &entered), bytes);
     }
 
     #[test]
-    fn a_valid_telegram_has_no_problems_and_no_deviations(kind in kind(), seed: u64) {
-        let mut rtu = sample(kind, seed);
-        let bytes = write(&mut rtu);
-        let mut read = Rtu::expect(&bytes, kind.1.direction, kind.0);
+    fn a_valid_telegram_has_no_problems_and_no_deviations(mode in mode(), kind in kind(), seed: u64) {
+        let mut serial = sample(mode, kind, seed);
+        let bytes = write(&mut serial);
+        let mut read = mode.expect(&bytes, kind.1.direction, kind.0);
         let reading = walk::read(&mut read, &bytes);
         assert_tiled(&reading.fields, bytes.len());
         let found = codes(&reading.fields);
@@ -119,43 +157,52 @@ proptest! {
         prop_assert_eq!(write(&mut read), bytes);
     }
 
+    /// What one protocol carries, each of its kin carries as well.
     #[test]
-    fn the_length_rule_agrees_with_the_telegram(kind in kind(), seed: u64) {
-        let bytes = write(&mut sample(kind, seed));
-        prop_assert!(kind.1.length.fits(Rtu::pdu_bytes(&bytes)));
-        prop_assert_eq!(Rtu::pdu_bytes(&bytes).len() + AROUND, bytes.len());
+    fn every_protocol_of_modbus_carries_every_telegram(kind in kind(), seed: u64) {
+        for protocol in PROTOCOLS {
+            let pdu = sample(&RTU, kind, seed).pdu;
+            let Some(mut frame) = (protocol.carry)(7, Cargo::Modbus(pdu)) else { continue };
+            let bytes = write(frame.as_mut());
+            let mut read = expect(protocol, &bytes, kind.1.direction, kind.0);
+            let found = codes(&walk::read(read.as_mut(), &bytes).fields);
+            let allowed = |code| BETWEEN_FIELDS.contains(code) || *code == "serial-only";
+            prop_assert!(found.iter().all(allowed), "{}: {:?}", protocol.key, found);
+            prop_assert_ne!((protocol.verdict)(&bytes), Verdict::Wrong);
+            prop_assert_eq!(write(read.as_mut()), bytes);
+        }
     }
 
     #[test]
-    fn a_form_gives_the_same_telegram(bytes in bytes(), direction in direction(), dialect in dialect()) {
-        let mut rtu = Rtu::expect(&bytes, direction, dialect);
-        let deviations = walk::read(&mut rtu, &bytes).deviations(&mut rtu);
-        let shown = form::form(&mut rtu, &deviations);
-        let mut filled = Rtu { unit: 0, pdu: Pdu::expect(rtu.pdu.function, direction, dialect) };
-        let entered = form::fill(&mut filled, &shown).expect("a form fills what it was made of");
-        prop_assert_eq!(&form::form(&mut filled, &entered), &shown);
-        prop_assert_eq!(walk::write(&mut filled, &entered), bytes);
+    fn the_length_rule_agrees_with_the_telegram(mode in mode(), kind in kind(), seed: u64) {
+        let bytes = write(&mut sample(mode, kind, seed));
+        prop_assert!(kind.1.length.fits(mode.pdu_bytes(&bytes)));
+        prop_assert_eq!(mode.pdu_bytes(&bytes).len() + mode.around(), bytes.len());
     }
 
     #[test]
-    fn each_shorter_prefix_says_what_is_missing(kind in kind(), seed: u64, cut: prop::sample::Index) {
-        let bytes = write(&mut sample(kind, seed));
+    fn each_shorter_prefix_says_what_is_missing(
+        mode in mode(), kind in kind(), seed: u64, cut: prop::sample::Index
+    ) {
+        let bytes = write(&mut sample(mode, kind, seed));
         let prefix = &bytes[..cut.index(bytes.len())];
-        let mut rtu = Rtu::expect(prefix, kind.1.direction, kind.0);
-        let found = codes(&walk::read(&mut rtu, prefix).fields);
+        let mut serial = mode.expect(prefix, kind.1.direction, kind.0);
+        let found = codes(&walk::read(&mut serial, prefix).fields);
         // Nothing tells how much data an unknown function has.
-        let told = kind.1.length.of(Rtu::pdu_bytes(&bytes)).is_some() || prefix.len() < SHORTEST;
+        let told = kind.1.length.of(mode.pdu_bytes(&bytes)).is_some() || prefix.len() < mode.shortest();
         prop_assert!(!told || found.contains(&"truncated"), "{:?}", found);
     }
 
     #[test]
-    fn a_flipped_bit_is_noticed(kind in kind(), seed: u64, place: prop::sample::Index, bit in 0..8) {
-        let mut bytes = write(&mut sample(kind, seed));
+    fn a_flipped_bit_is_noticed(
+        mode in mode(), kind in kind(), seed: u64, place: prop::sample::Index, bit in 0..8
+    ) {
+        let mut bytes = write(&mut sample(mode, kind, seed));
         let place = place.index(bytes.len());
         bytes[place] ^= 1u8 << bit;
         for direction in [Direction::Request, Direction::Response] {
-            let mut rtu = Rtu::expect(&bytes, direction, &STANDARD);
-            let reading = walk::read(&mut rtu, &bytes);
+            let mut serial = mode.expect(&bytes, direction, &STANDARD);
+            let reading = walk::read(&mut serial, &bytes);
             assert_tiled(&reading.fields, bytes.len());
             prop_assert!(codes(&reading.fields).contains(&"check-failed"));
         }
@@ -188,10 +235,10 @@ proptest! {
 #[test]
 fn the_guide_and_the_reader_agree() {
     for kind in kinds() {
-        let rows = guide::guide(&mut empty(kind));
-        let mut rtu = sample(kind, 1);
-        let bytes = write(&mut rtu);
-        let reading = walk::read(&mut rtu, &bytes);
+        let rows = guide::guide(&mut empty(&RTU, kind));
+        let mut serial = sample(&RTU, kind, 1);
+        let bytes = write(&mut serial);
+        let reading = walk::read(&mut serial, &bytes);
         let mut read = Vec::new();
         for field in &reading.fields {
             field.visit(&mut |field| {

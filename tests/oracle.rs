@@ -2,6 +2,8 @@
 //! our responses are understood by it.
 
 use buslens::field::Direction;
+use buslens::frame::modbus_rtu::RTU;
+use buslens::frame::modbus_serial::Serial;
 use buslens::modbus::{KINDS, STANDARD};
 use buslens::tool::{Detail, Options, Verdict, decode};
 use proptest::prelude::*;
@@ -91,7 +93,7 @@ proptest! {
         let mut client = ModbusRequest::new(unit, ModbusProto::Rtu);
         client.generate_get_holdings(0, values.len() as u16, &mut Vec::new()).expect("a request");
         let kind = KINDS.iter().find(|kind| kind.spec.key == "read_holding_registers_response").expect("listed");
-        let mut rtu = buslens::frame::modbus_rtu::Rtu { unit, pdu: kind.pdu(&STANDARD) };
+        let mut rtu = Serial { mode: &RTU, unit, pdu: kind.pdu(&STANDARD) };
         let mut rest = values.iter();
         buslens::walk::sample(&mut rtu, &mut |most| match most {
             // The unit, then the number of registers, then each of them.

@@ -1,64 +1,49 @@
-//! The Modbus ASCII frame: unit address (1 byte), PDU, LRC (1 byte).
+//! Modbus ASCII: the frame of a serial line with an LRC (1 byte).
 //!
 //! On the line each byte is two hex digits, after a colon and before CR LF: `:0103…`, at most 513
 //! characters. Spans count the bytes that the digits stand for.
 //!
 //! Source: Modbus over serial line V1.02, section 2.5.2.
 
-use super::modbus_serial::{self as serial, PduFit, answer, check_length, head, pdu_fit};
-use super::{Cargo, Content, Fit, Frame, Protocol, Settings, Speaker, Verdict};
-use crate::field::{Direction, Message, Role, Spec, hex};
+use super::modbus_serial::{self as serial, Mode, PduFit, Serial, pdu_fit};
+use super::{Cargo, Fit, Protocol, Settings, Speaker, Verdict};
+use crate::field::{Role, Spec, hex};
 use crate::message;
-use crate::modbus::{Dialect, LONGEST_PDU, Pdu};
-use crate::walk::{LRC as LRC_SUM, Telegram, Walk, Walker};
+use crate::walk::LRC;
 
 pub static PROTOCOL: Protocol = Protocol {
     key: "modbus-ascii",
     label: "Modbus ASCII",
     fit,
-    verdict,
+    verdict: |bytes| ASCII.verdict(bytes),
     first: <[u8]>::len,
-    speaker: Speaker::Pdu(|bytes| (pdu_bytes(bytes), AROUND)),
+    speaker: Speaker::Pdu(|bytes| (ASCII.pdu_bytes(bytes), ASCII.around())),
     exchange: serial::exchange,
     waiting: 1,
-    expect: |bytes, direction, settings| Box::new(Ascii::expect(bytes, direction, settings.dialect)),
+    expect: |bytes, direction, settings| Box::new(ASCII.expect(bytes, direction, settings.dialect)),
     carry: |unit, cargo| match cargo {
-        Cargo::Modbus(pdu) => Some(Box::new(Ascii { unit, pdu })),
+        Cargo::Modbus(pdu) => Some(Box::new(Serial { mode: &ASCII, unit, pdu })),
         Cargo::Profibus(..) => None,
     },
 };
 
+/// The mode with an LRC.
+pub static ASCII: Mode = Mode {
+    check: Spec::new("lrc", "LRC")
+        .role(Role::Check)
+        .note("What the sum of all bytes before it lacks to a multiple of 256.")
+        .source("Modbus over serial line V1.02, 2.5.2.2"),
+    algorithm: &LRC,
+};
+
 /// An LRC is right by chance once in 256, so the PDU has to look right, too.
 fn fit(bytes: &[u8], settings: &Settings) -> Fit {
-    match (verdict(bytes), pdu_fit(pdu_bytes(bytes), settings.dialect)) {
+    match (ASCII.verdict(bytes), pdu_fit(ASCII.pdu_bytes(bytes), settings.dialect)) {
         (Verdict::Right, PduFit::Length) => {
             Fit { bits: 12, reason: message!("its last byte is the LRC of the others, and its length fits") }
         }
         (Verdict::Right, _) => Fit { bits: 5, reason: message!("its last byte is the LRC of the others") },
         _ => Fit { bits: 0, reason: message!("its last byte is not the LRC of the others") },
-    }
-}
-
-/// The bytes around the PDU: unit and LRC.
-pub const AROUND: usize = 2;
-
-/// The fewest bytes of a frame: unit, function code, LRC.
-pub const SHORTEST: usize = 1 + AROUND;
-
-/// The most bytes of a frame: 513 characters less colon and line end.
-pub const LONGEST: usize = LONGEST_PDU + AROUND;
-
-/// A Modbus ASCII frame.
-pub struct Ascii {
-    pub unit: u8,
-    pub pdu: Pdu,
-}
-
-impl Ascii {
-    /// An empty frame to read `bytes` into.
-    pub fn expect(bytes: &[u8], direction: Direction, dialect: &'static Dialect) -> Self {
-        let [unit, function] = head(bytes);
-        Self { unit, pdu: Pdu::expect(function, direction, dialect) }
     }
 }
 
@@ -76,55 +61,8 @@ pub fn from_characters(characters: &[u8]) -> Option<Vec<u8>> {
         [high, low] => Some(digit(high)? << 4 | digit(low)?),
         _ => None,
     });
-    pairs.collect::<Option<Vec<u8>>>().filter(|bytes| bytes.len() >= SHORTEST)
+    pairs.collect::<Option<Vec<u8>>>().filter(|bytes| bytes.len() >= ASCII.shortest())
 }
-
-fn pdu_bytes(bytes: &[u8]) -> &[u8] {
-    if bytes.len() < SHORTEST { &[] } else { &bytes[1..bytes.len() - 1] }
-}
-
-fn verdict(bytes: &[u8]) -> Verdict {
-    match bytes.split_last() {
-        Some((lrc, covered)) if bytes.len() >= SHORTEST => {
-            if LRC_SUM.wire(covered) == u64::from(*lrc) {
-                Verdict::Right
-            } else {
-                Verdict::Wrong
-            }
-        }
-        _ => Verdict::Unchecked,
-    }
-}
-
-impl Telegram for Ascii {
-    fn walk(&mut self, w: &mut dyn Walker) -> Walk {
-        let start = w.mark();
-        serial::walk(w, &mut self.unit, &mut self.pdu, LRC_SUM.width)?;
-        w.checksum(&LRC, &LRC_SUM, start)?;
-        let length = w.mark() - start;
-        check_length(w, &LRC, length, LONGEST);
-        Ok(())
-    }
-}
-
-impl Frame for Ascii {
-    fn content(&self) -> Content<'_> {
-        Content::Modbus { server: serial::server(self.unit), pdu: &self.pdu }
-    }
-
-    fn meaning(&self) -> Message {
-        self.pdu.body.meaning(serial::server(self.unit))
-    }
-
-    fn answer(&mut self, request: &Content<'_>) {
-        answer(&mut self.pdu, request);
-    }
-}
-
-static LRC: Spec = Spec::new("lrc", "LRC")
-    .role(Role::Check)
-    .note("What the sum of all bytes before it lacks to a multiple of 256.")
-    .source("Modbus over serial line V1.02, 2.5.2.2");
 
 #[cfg(test)]
 mod tests {

@@ -1,38 +1,108 @@
-//! What the two serial modes of Modbus have in common: unit address, PDU, and the rules of a line
-//! with many units.
+//! The Modbus frame of a serial line: unit address (1 byte), PDU, check. The two modes of the
+//! standard, RTU and ASCII, differ in the check and in how bytes are put on the line.
 //!
-//! Source: Modbus over serial line V1.02, section 2.2.
+//! Source: Modbus over serial line V1.02, sections 2.2 and 2.5.
 
-use super::{Content, Fit};
-use crate::field::{Direction, Name, Role, Severity, Spec};
+use super::{Content, Fit, Frame, Verdict};
+use crate::field::{Direction, Message, Name, Role, Severity, Span, Spec};
 use crate::message;
-use crate::modbus::{Dialect, EXCEPTION, KINDS, Pdu, Server};
-use crate::walk::{Telegram, Walk, Walker};
+use crate::modbus::{Dialect, EXCEPTION, KINDS, LONGEST_PDU, Pdu, Server};
+use crate::walk::{Algorithm, Telegram, Walk, Walker};
 
 /// The unit that everybody on the line listens to.
 pub const BROADCAST: u8 = 0;
 
-/// Unit and function code of a frame; what is not there is 0.
-pub fn head(bytes: &[u8]) -> [u8; 2] {
-    [0, 1].map(|at| bytes.get(at).copied().unwrap_or_default())
+/// RTU or ASCII.
+#[derive(Debug)]
+pub struct Mode {
+    pub check: Spec,
+    pub algorithm: &'static Algorithm,
 }
 
-/// Walks unit and PDU, which leave `keep` bytes for the check behind them.
-pub fn walk(w: &mut dyn Walker, unit: &mut u8, pdu: &mut Pdu, keep: usize) -> Walk {
-    w.window(keep, &mut |w| {
-        w.u8(&UNIT, unit)?;
-        if *unit > 247 {
-            w.remark(
-                &UNIT,
-                Severity::Warning,
-                "reserved-address",
-                message!("unit {unit} is reserved: units have the numbers 1 to 247", unit = *unit),
-            );
+impl Mode {
+    /// The bytes around the PDU: unit and check.
+    pub const fn around(&self) -> usize {
+        1 + self.algorithm.width
+    }
+
+    /// The fewest bytes of a frame: unit, function code, check.
+    pub const fn shortest(&self) -> usize {
+        1 + self.around()
+    }
+
+    /// The most bytes of a frame.
+    pub const fn longest(&self) -> usize {
+        LONGEST_PDU + self.around()
+    }
+
+    /// An empty frame to read `bytes` into.
+    pub fn expect(&'static self, bytes: &[u8], direction: Direction, dialect: &'static Dialect) -> Serial {
+        let [unit, function] = [0, 1].map(|at| bytes.get(at).copied().unwrap_or_default());
+        Serial { mode: self, unit, pdu: Pdu::expect(function, direction, dialect) }
+    }
+
+    /// The bytes of the PDU in a frame of `bytes`; empty where the frame is too short for one.
+    pub fn pdu_bytes<'a>(&self, bytes: &'a [u8]) -> &'a [u8] {
+        if bytes.len() < self.shortest() {
+            return &[];
         }
-        let walk = pdu.walk(w);
-        check_broadcast(w, *unit, pdu);
-        walk
-    })
+        Span::new(1, bytes.len() - self.algorithm.width).of(bytes)
+    }
+
+    /// What the check says.
+    pub fn verdict(&self, bytes: &[u8]) -> Verdict {
+        if bytes.len() < self.shortest() {
+            return Verdict::Unchecked;
+        }
+        let (covered, check) = bytes.split_at(bytes.len() - self.algorithm.width);
+        let found = check.iter().fold(0, |found, byte| found << 8 | u64::from(*byte));
+        if self.algorithm.wire(covered) == found { Verdict::Right } else { Verdict::Wrong }
+    }
+}
+
+/// A frame of a serial line.
+pub struct Serial {
+    pub mode: &'static Mode,
+    pub unit: u8,
+    pub pdu: Pdu,
+}
+
+impl Telegram for Serial {
+    fn walk(&mut self, w: &mut dyn Walker) -> Walk {
+        let start = w.mark();
+        w.window(self.mode.algorithm.width, &mut |w| {
+            w.u8(&UNIT, &mut self.unit)?;
+            if self.unit > 247 {
+                w.remark(
+                    &UNIT,
+                    Severity::Warning,
+                    "reserved-address",
+                    message!("unit {unit} is reserved: units have the numbers 1 to 247", unit = self.unit),
+                );
+            }
+            let walk = self.pdu.walk(w);
+            check_broadcast(w, self.unit, &self.pdu);
+            walk
+        })?;
+        w.checksum(&self.mode.check, self.mode.algorithm, start)?;
+        let length = w.mark() - start;
+        check_length(w, &self.mode.check, length, self.mode.longest());
+        Ok(())
+    }
+}
+
+impl Frame for Serial {
+    fn content(&self) -> Content<'_> {
+        Content::Modbus { server: server(self.unit), pdu: &self.pdu }
+    }
+
+    fn meaning(&self) -> Message {
+        self.pdu.body.meaning(server(self.unit))
+    }
+
+    fn answer(&mut self, request: &Content<'_>) {
+        answer(&mut self.pdu, request);
+    }
 }
 
 fn check_broadcast(w: &mut dyn Walker, unit: u8, pdu: &Pdu) {
@@ -87,7 +157,7 @@ pub fn answer(pdu: &mut Pdu, request: &Content<'_>) {
 }
 
 /// Whom a frame with this address is for or from.
-pub fn server(unit: u8) -> Server {
+fn server(unit: u8) -> Server {
     match unit {
         BROADCAST => Server::All,
         unit => Server::Unit(unit),
