@@ -51,11 +51,11 @@ fn areas_follow_each_other_without_overlap() {
 #[test]
 fn parameters_lie_in_an_area_and_are_told_apart() {
     for profile in PROFILES {
-        for (index, one) in profile.parameters.iter().enumerate() {
+        for (index, one) in profile.parameters().enumerate() {
             let name = one.spec.label;
             assert!(profile.area(one.address).is_some(), "{name}");
             assert!(one.length.is_none_or(|length| [1, 2, 4].contains(&length)), "{name}");
-            for other in &profile.parameters[..index] {
+            for other in profile.parameters().take(index) {
                 let apart = one.address != other.address
                     || one.subindex.is_some() && other.subindex.is_some() && one.subindex != other.subindex;
                 assert!(apart, "{name} and {} share {:04X}h", other.spec.label, one.address);
@@ -81,8 +81,7 @@ fn lessons_lie_in_an_area() {
 fn keys_are_stable_words_of_their_own() {
     for profile in PROFILES {
         let areas = profile.areas.iter().map(|area| &area.spec);
-        let specs: Vec<&Spec> =
-            areas.chain(profile.parameters.iter().map(|parameter| &parameter.spec)).collect();
+        let specs: Vec<&Spec> = areas.chain(profile.parameters().map(|parameter| &parameter.spec)).collect();
         for (index, spec) in specs.iter().enumerate() {
             assert_snake_case(spec.key);
             let twice = specs[..index].iter().any(|other| other.key == spec.key && other != spec);
@@ -95,7 +94,7 @@ fn keys_are_stable_words_of_their_own() {
 fn everything_has_words_for_a_person() {
     for profile in PROFILES {
         let areas = profile.areas.iter().map(|area| (&area.spec, width(area)));
-        let parameters = profile.parameters.iter().map(|parameter| (&parameter.spec, parameter.length));
+        let parameters = profile.parameters().map(|parameter| (&parameter.spec, parameter.length));
         for (spec, width) in areas.chain(parameters) {
             assert!(!spec.note.is_empty(), "{} has no note", spec.label);
             assert_words(spec, width.unwrap_or(8));

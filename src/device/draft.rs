@@ -25,7 +25,7 @@ impl Profile {
     /// Everything that its table says can be asked of the device.
     pub fn tasks(&'static self) -> Vec<Task> {
         let areas = self.areas.iter().map(|area| (Target::Area(area), area.access));
-        let parameters = self.parameters.iter().map(|it| (Target::Parameter(it), it.access));
+        let parameters = self.parameters().map(|it| (Target::Parameter(it), it.access));
         let mut tasks = Vec::new();
         for (target, allowed) in areas.chain(parameters) {
             for access in [Access::Read, Access::Write] {

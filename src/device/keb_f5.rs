@@ -71,89 +71,83 @@ pub(super) const fn inverter_parameters(note: &'static str, source: &'static str
     Area::new(INVERTER, spec).blocks(0x3F00, 1, 0)
 }
 
-pub(super) const INVERTER_ADDRESS: Parameter = inverter(
-    0x0006,
-    "Sy.06",
-    Spec::new("inverter_address", "Inverter address").note(
-        "The address on the bus, 1 as delivered. The Modbus operator can have one of its own; if \
-         it has not, 0 switches Modbus off.",
+/// The inverter's parameters that the manuals name.
+pub(super) static INVERTER_PARAMETERS: &[Parameter] = &[
+    inverter(
+        0x0006,
+        "Sy.06",
+        Spec::new("inverter_address", "Inverter address").note(
+            "The address on the bus, 1 as delivered. The Modbus operator can have one of its own; if \
+             it has not, 0 switches Modbus off.",
+        ),
     ),
-);
-
-pub(super) const BAUD_RATE: Parameter = inverter(
-    0x0007,
-    "Sy.07",
-    Spec::new("baud_rate", "Baud rate").names(BAUD_RATES).note(
-        "How fast the Modbus and the diagnosis interface are. The operator looks at it once, when \
-         it starts.",
+    inverter(
+        0x0007,
+        "Sy.07",
+        Spec::new("baud_rate", "Baud rate").names(BAUD_RATES).note(
+            "How fast the Modbus and the diagnosis interface are. The operator looks at it once, when \
+             it starts.",
+        ),
     ),
-);
-
-pub(super) const CONTROL_WORD: Parameter = inverter(
-    0x0032,
-    "Sy.50",
-    Spec::new("control_word", "Control word")
-        .format(Format::Hex)
-        .note("Commands to the inverter. What its bits say, the inverter's application manual says."),
-)
-.length(2);
-
-pub(super) const STATUS_WORD: Parameter = inverter(
-    0x0033,
-    "Sy.51",
-    Spec::new("status_word", "Status word")
-        .format(Format::Hex)
-        .note("How the inverter is. What its bits say, the inverter's application manual says."),
-)
-.length(2)
-.access(Access::Read);
-
-pub(super) const SET_SPEED: Parameter = inverter(
-    0x0034,
-    "Sy.52",
-    Spec::new("set_speed", "Set speed").format(Format::Register).note("How fast the motor is to turn."),
-)
-.length(2);
-
-pub(super) const ACTUAL_SPEED: Parameter = inverter(
-    0x0035,
-    "Sy.53",
-    Spec::new("actual_speed", "Actual speed").format(Format::Register).note("How fast the motor turns."),
-)
-.length(2)
-.access(Access::Read);
-
-pub(super) const REFERENCE_SOURCE: Parameter = inverter(
-    0x0300,
-    "OP.00",
-    Spec::new("reference_source", "Reference source")
-        .note("Where the inverter takes its set speed from. 5 for the set speed in the process data."),
-);
-
-pub(super) const ROTATION_SOURCE: Parameter = inverter(
-    0x0301,
-    "OP.01",
-    Spec::new("rotation_source", "Rotation source")
-        .note("Where the inverter takes its direction from. 8 goes with process data, as do others."),
-);
-
-pub(super) const MOTORPOTI_RAMP_TIME: Parameter = inverter(
-    0x033B,
-    "OP.59",
-    Spec::new("motorpoti_ramp_time", "Motorpoti ramp time")
-        .format(Format::Register)
-        .note("The ramp of the motor potentiometer. 32 bits: as process data it takes two words."),
-)
-.length(4);
-
-pub(super) const SWITCHING_LEVEL: Parameter = inverter(
-    0x0D00,
-    "LE.00",
-    Spec::new("switching_level", "Switching level")
-        .format(Format::Register)
-        .note("A level to compare with. 32 bits: as process data it takes two words."),
-)
-.length(4);
+    inverter(
+        0x0032,
+        "Sy.50",
+        Spec::new("control_word", "Control word")
+            .format(Format::Hex)
+            .note("Commands to the inverter. What its bits say, the inverter's application manual says."),
+    )
+    .length(2),
+    inverter(
+        0x0033,
+        "Sy.51",
+        Spec::new("status_word", "Status word")
+            .format(Format::Hex)
+            .note("How the inverter is. What its bits say, the inverter's application manual says."),
+    )
+    .length(2)
+    .access(Access::Read),
+    inverter(
+        0x0034,
+        "Sy.52",
+        Spec::new("set_speed", "Set speed").format(Format::Register).note("How fast the motor is to turn."),
+    )
+    .length(2),
+    inverter(
+        0x0035,
+        "Sy.53",
+        Spec::new("actual_speed", "Actual speed").format(Format::Register).note("How fast the motor turns."),
+    )
+    .length(2)
+    .access(Access::Read),
+    inverter(
+        0x0300,
+        "OP.00",
+        Spec::new("reference_source", "Reference source")
+            .note("Where the inverter takes its set speed from. 5 for the set speed in the process data."),
+    ),
+    inverter(
+        0x0301,
+        "OP.01",
+        Spec::new("rotation_source", "Rotation source")
+            .note("Where the inverter takes its direction from. 8 goes with process data, as do others."),
+    ),
+    inverter(
+        0x033B,
+        "OP.59",
+        Spec::new("motorpoti_ramp_time", "Motorpoti ramp time")
+            .format(Format::Register)
+            .note("The ramp of the motor potentiometer. 32 bits: as process data it takes two words."),
+    )
+    .length(4),
+    inverter(
+        0x0D00,
+        "LE.00",
+        Spec::new("switching_level", "Switching level")
+            .format(Format::Register)
+            .note("A level to compare with. 32 bits: as process data it takes two words."),
+    )
+    .length(4),
+];
 
 const fn inverter(address: u16, id: &'static str, spec: Spec) -> Parameter {
     Parameter::new(INVERTER + address, id, spec.source(SOURCE))

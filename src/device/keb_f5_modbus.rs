@@ -23,7 +23,7 @@ pub static PROFILE: Profile = Profile {
     ident: None,
     hex_addresses: true,
     areas: AREAS,
-    parameters: PARAMETERS,
+    parameters: &[keb_f5::INVERTER_PARAMETERS, PARAMETERS],
     most_registers: None,
     display: &[],
     lessons: LESSONS,
@@ -110,16 +110,6 @@ static LESSONS: &[Lesson] = &[
 ];
 
 static PARAMETERS: &[Parameter] = &[
-    keb_f5::INVERTER_ADDRESS,
-    keb_f5::BAUD_RATE,
-    keb_f5::CONTROL_WORD,
-    keb_f5::STATUS_WORD,
-    keb_f5::SET_SPEED,
-    keb_f5::ACTUAL_SPEED,
-    keb_f5::REFERENCE_SOURCE,
-    keb_f5::ROTATION_SOURCE,
-    keb_f5::MOTORPOTI_RAMP_TIME,
-    keb_f5::SWITCHING_LEVEL,
     operator(
         0x5F00,
         "FB.00",

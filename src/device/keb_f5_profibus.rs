@@ -24,7 +24,7 @@ pub static PROFILE: Profile = Profile {
     ident: Some(0x05EB),
     hex_addresses: true,
     areas: AREAS,
-    parameters: PARAMETERS,
+    parameters: &[keb_f5::INVERTER_PARAMETERS, PARAMETERS],
     most_registers: None,
     display: DISPLAY,
     lessons: LESSONS,
@@ -125,16 +125,6 @@ macro_rules! words {
 }
 
 static PARAMETERS: &[Parameter] = with_descriptions![
-    keb_f5::INVERTER_ADDRESS,
-    keb_f5::BAUD_RATE,
-    keb_f5::CONTROL_WORD,
-    keb_f5::STATUS_WORD,
-    keb_f5::SET_SPEED,
-    keb_f5::ACTUAL_SPEED,
-    keb_f5::REFERENCE_SOURCE,
-    keb_f5::ROTATION_SOURCE,
-    keb_f5::MOTORPOTI_RAMP_TIME,
-    keb_f5::SWITCHING_LEVEL,
     operator(
         0x2180,
         "OS00",

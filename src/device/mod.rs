@@ -39,8 +39,9 @@ pub struct Profile {
     pub hex_addresses: bool,
     /// What stands at which address, in the order of the addresses and without overlap.
     pub areas: &'static [Area],
-    /// Addresses with a name of their own, each within one of the areas.
-    pub parameters: &'static [Parameter],
+    /// Addresses with a name of their own, each within one of the areas; several lists, where
+    /// devices share one.
+    pub parameters: &'static [&'static [Parameter]],
     /// The most registers that the device takes at once, where it takes fewer than the standard.
     pub most_registers: Option<usize>,
     /// What its display shows when something is wrong.
@@ -195,6 +196,11 @@ impl Settings {
 }
 
 impl Profile {
+    /// All addresses with a name of their own.
+    pub fn parameters(&self) -> impl Iterator<Item = &'static Parameter> {
+        self.parameters.iter().copied().flatten()
+    }
+
     /// The area that has `address`.
     pub fn area(&self, address: u16) -> Option<&Area> {
         self.areas.iter().find(|area| (area.from..=area.last()).contains(&address))

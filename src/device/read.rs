@@ -293,9 +293,8 @@ impl Profile {
 
     /// The parameter at an address.
     fn named(&'static self, address: u16, subindex: Option<u8>) -> Option<&'static Parameter> {
-        let here = |parameter: &&Parameter| parameter.address == address;
-        self.parameters.iter().find(|parameter| {
-            here(parameter) && (parameter.subindex.is_none() || parameter.subindex == subindex)
+        self.parameters().find(|parameter| {
+            parameter.address == address && (parameter.subindex.is_none() || parameter.subindex == subindex)
         })
     }
 
