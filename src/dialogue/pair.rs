@@ -31,16 +31,19 @@ impl Pairing {
                 None
             }
             Direction::Response => {
-                let asked =
-                    self.waiting.iter().position(|it| exchange == ANY_EXCHANGE || it.exchange == exchange)?;
+                let asked = self.place(exchange)?;
                 Some(self.waiting.remove(asked).index)
             }
         }
     }
 
-    /// The newest request that waits for an answer.
-    pub fn waiting(&self) -> Option<usize> {
-        self.waiting.last().map(|waiting| waiting.index)
+    /// The request that a response of this exchange would answer.
+    pub fn waiting(&self, exchange: u64) -> Option<usize> {
+        self.place(exchange).map(|place| self.waiting[place].index)
+    }
+
+    fn place(&self, exchange: u64) -> Option<usize> {
+        self.waiting.iter().position(|it| exchange == ANY_EXCHANGE || it.exchange == exchange)
     }
 }
 

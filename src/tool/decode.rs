@@ -239,14 +239,12 @@ impl Report {
 
     /// Who speaks: by the bytes, and where those leave it open, by the request that waits.
     fn guess(&self, protocol: &Protocol, bytes: &[u8], pairing: &Pairing) -> Guess {
-        let asked = pairing.waiting().map(|index| (index, self.telegrams[index].line.bytes.as_slice()));
-        let exchange = (protocol.exchange)(bytes);
-        let awaited =
-            exchange.is_some() && asked.is_some_and(|(_, asked)| (protocol.exchange)(asked) == exchange);
+        let asked = (protocol.exchange)(bytes).and_then(|exchange| pairing.waiting(exchange));
+        let asked = asked.map(|index| (index, self.telegrams[index].line.bytes.as_slice()));
         let guess = match protocol.speaker {
             Speaker::Pdu(inside) => {
                 let (pdu, around) = inside(bytes);
-                dialogue::direction(pdu, around, awaited, self.options.settings.frame.dialect)
+                dialogue::direction(pdu, around, asked.is_some(), self.options.settings.frame.dialect)
             }
             Speaker::Frame(told) => dialogue::told(told(bytes), message!("its frame says so")),
             Speaker::Always(direction) => {
@@ -257,7 +255,7 @@ impl Report {
         if guess.certainty != Certainty::Open {
             return guess;
         }
-        let Some((index, asked)) = asked.filter(|_| awaited) else { return guess };
+        let Some((index, asked)) = asked else { return guess };
         let n = index + 1;
         // Both directions have such a length: the one that makes fewer mistakes is meant.
         let mistakes = |direction| self.mistakes(protocol, bytes, direction, index);
