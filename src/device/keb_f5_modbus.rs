@@ -20,6 +20,7 @@ pub static PROFILE: Profile = Profile {
     key: "keb-f5-modbus",
     label: "KEB COMBIVERT F5 on Modbus",
     source: "KEB COMBIVERT F5 Modbus operator",
+    functions: &[3, 4, 6, 16, 100, 101],
     ident: None,
     hex_addresses: true,
     areas: AREAS,

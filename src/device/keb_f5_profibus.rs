@@ -21,6 +21,7 @@ pub static PROFILE: Profile = Profile {
     key: "keb-f5-profibus",
     label: "KEB COMBIVERT F5 on PROFIBUS-DP",
     source: "KEB COMBIVERT F5 PROFIBUS-DP operator",
+    functions: &[],
     ident: Some(0x05EB),
     hex_addresses: true,
     areas: AREAS,

@@ -33,6 +33,8 @@ pub struct Profile {
     pub label: &'static str,
     /// The manual.
     pub source: &'static str,
+    /// The function codes that its manual lists; empty where it has no Modbus.
+    pub functions: &'static [u8],
     /// Its ident number on PROFIBUS.
     pub ident: Option<u16>,
     /// The manual writes addresses in hex.
@@ -167,15 +169,16 @@ impl Entry {
 }
 
 impl Mapping {
-    /// Number and entry of the register at `address`; a 32-bit value's second register has that of
-    /// its first.
-    pub fn entry(&self, address: u16) -> Option<(usize, Entry)> {
+    /// Number and entry of the register at `address`, and whether it is the second one of a 32-bit
+    /// value: that has the number and the entry of the first.
+    pub fn entry(&self, address: u16) -> Option<(usize, Entry, bool)> {
         let n = usize::from(address.checked_sub(self.start)?);
         match self.entries.get(n)? {
             Entry(0) => {
-                n.checked_sub(1).map(|n| (n, self.entries[n])).filter(|(_, entry)| entry.words() == 2)
+                let before = n.checked_sub(1)?;
+                Some((before, self.entries[before], true)).filter(|(_, entry, _)| entry.words() == 2)
             }
-            entry => Some((n, *entry)),
+            entry => Some((n, *entry, false)),
         }
     }
 

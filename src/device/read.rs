@@ -1,7 +1,9 @@
 //! Reading registers and parameters by a device's table.
 
 use super::{Access, Area, Content, Mapping, Parameter, Part, Profile, Settings, keb_f5};
-use crate::field::{Argument, Field, Message, Numbering, Order, Problem, Role, Span, Spec, Value, hex_value};
+use crate::field::{
+    Argument, Field, Format, Message, Numbering, Order, Problem, Role, Span, Spec, Value, hex_value,
+};
 use crate::message;
 use crate::walk::{self, Telegram, Walk, Walker};
 
@@ -181,6 +183,7 @@ fn shown(leaf: &Field) -> Option<Message> {
         Value::Number { raw, .. } if leaf.spec.name(*raw).is_some() || !leaf.spec.bits.is_empty() => {
             leaf.meaning()
         }
+        Value::Number { .. } if leaf.spec.format == Format::DayMonthYear => leaf.meaning(),
         Value::Selector { chosen, .. } => Some(Message::term(chosen.label)),
         Value::Group | Value::Bytes | Value::Missing { .. } => None,
         _ => Some(message!("{value}", value = leaf.value_text())),
@@ -216,7 +219,7 @@ impl Profile {
             ));
         }
         // What goes past the last address is nothing that a table could know.
-        let count = registers.count.min(usize::from(u16::MAX - registers.start) + 1);
+        let count = registers.count.min(usize::from(u16::MAX - registers.start) + 1).min(MOST_SHOWN);
         let mut done = 0;
         while done < count {
             let address = registers.start + done as u16;
@@ -260,6 +263,7 @@ impl Profile {
             && self.named(index, Some(subindex)).is_none_or(|parameter| parameter.subindex.is_none())
         {
             let sets = set_names(subindex);
+            block.field.problems.extend(here.sets_must_agree(subindex));
             block.note = Some(match block.note {
                 Some(note) => message!("{note}; {sets}", note = note, sets = sets),
                 None => sets,
@@ -327,7 +331,7 @@ impl Profile {
     /// A register that stands for a parameter by the user's mapping list.
     fn mapped(&'static self, here: &Here<'_>, area: &'static Area, mapping: &Mapping) -> Block {
         let number = Some(Numbering::At(here.address.into()));
-        let Some((n, entry)) = mapping.entry(here.address) else {
+        let Some((n, entry, second)) = mapping.entry(here.address) else {
             let mut block = here.single(&area.spec, number, area.access);
             block.note = Some(match mapping.entries.len() {
                 0 => message!("which parameter it is, only the mapping list tells"),
@@ -345,7 +349,7 @@ impl Profile {
         };
         let named = self.named(address, None);
         let number = named.is_none().then_some(Numbering::At(entry.parameter().into()));
-        let mut block = if words == 2 && here.left < 2 {
+        let mut block = if words == 2 && (second || here.left < 2) {
             let mut block = here.cut(spec, 1);
             block.field.problems.push(Problem::error(
                 "half-value",
@@ -366,16 +370,7 @@ impl Profile {
             parameter = hex_value(entry.parameter().into(), 2),
             sets = set_names(entry.sets())
         ));
-        if here.registers.access == Access::Read && entry.sets().count_ones() > 1 {
-            block.field.problems.push(Problem::warning(
-                "sets-must-agree",
-                here.registers.span,
-                message!(
-                    "mapping entry {n} reads several sets at once: that only works while they hold the same value, otherwise the answer is exception 3",
-                    n = n
-                ),
-            ));
-        }
+        block.field.problems.extend(here.sets_must_agree(entry.sets()));
         block
     }
 }
@@ -415,6 +410,18 @@ struct Here<'a> {
 }
 
 impl Here<'_> {
+    /// What there is to say where several sets are asked for at once. An answer shows that they agree.
+    fn sets_must_agree(&self, sets: u8) -> Option<Problem> {
+        let asked = self.registers.access == Access::Read && self.registers.values.is_none();
+        (asked && sets.count_ones() > 1).then(|| {
+            Problem::warning(
+                "sets-must-agree",
+                self.registers.span,
+                message!("this reads several sets at once: that works only while they hold the same value"),
+            )
+        })
+    }
+
     /// Where the next `count` registers stand in the telegram, with their bytes.
     fn bytes(&self, count: usize) -> (Span, Option<&[u8]>) {
         let Registers { span, values, width, start, .. } = *self.registers;
@@ -600,6 +607,9 @@ impl Telegram for Numbers {
             .try_for_each(|((spec, width), value)| w.number(spec, *width, value))
     }
 }
+
+/// More registers than a telegram can have are not worth a block each.
+const MOST_SHOWN: usize = 256;
 
 /// Entries of a mapping list, each a word.
 const MOST_MAPPED: usize = 100;

@@ -101,7 +101,9 @@ fn slips(length: Length, pdu: &[u8]) -> usize {
     let counted = right - at - 1;
     let whole = counted.is_multiple_of(unit);
     let missed = if whole && missed.is_multiple_of(unit) { missed / unit } else { missed };
-    missed + usize::from(!whole) + if counted == 0 { EMPTY } else { 0 }
+    // A write of nothing is a slip of the client; a response with nothing is not one.
+    let empty = counted == 0 && !(missed == 0 && at > 1);
+    missed + usize::from(!whole) + if empty { EMPTY } else { 0 }
 }
 
 #[cfg(test)]

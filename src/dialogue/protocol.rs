@@ -26,6 +26,9 @@ const PROOF: u32 = 16;
 /// What the others' protocol counts for, in bits, where a telegram's own bytes prove none.
 const COMPANY: u32 = 4;
 
+/// The same where some of the others prove it.
+const PROVEN_COMPANY: u32 = 12;
+
 /// Tells the protocol of each telegram: by its own bytes where they prove it, else by what fits
 /// all telegrams together best.
 pub fn protocols(telegrams: &[Candidate<'_>], settings: &Settings) -> Vec<Choice> {
@@ -40,19 +43,27 @@ pub fn protocols(telegrams: &[Candidate<'_>], settings: &Settings) -> Vec<Choice
         }
     }
     let common = best(together.iter().copied());
+    let proven = fits.iter().any(|fits| fits[common].bits >= PROOF);
+    let company = if proven { PROVEN_COMPANY } else { COMPANY };
     telegrams
         .iter()
         .zip(fits)
-        .map(|(telegram, fits)| choose(telegram, fits, common, together[common]))
+        .map(|(telegram, fits)| choose(telegram, fits, common, (together[common], company)))
         .collect()
 }
 
-/// `common` is the protocol that fits all telegrams best, by so many bits `together`.
-fn choose(telegram: &Candidate<'_>, fits: Vec<Fit>, common: usize, together: u32) -> Choice {
+/// `common` is the protocol that fits all telegrams best, by so many bits `together`; it counts for
+/// so many bits `company`.
+fn choose(
+    telegram: &Candidate<'_>,
+    fits: Vec<Fit>,
+    common: usize,
+    (together, company): (u32, u32),
+) -> Choice {
     let own = best(fits.iter().map(|fit| fit.bits));
     let (chosen, reason) = match telegram.written_as {
         Some(protocol) => (protocol, message!("it is written as one: a colon and hex digits")),
-        None if fits[own].bits >= PROOF || fits[own].bits > fits[common].bits + COMPANY => {
+        None if fits[own].bits >= PROOF || fits[own].bits > fits[common].bits + company => {
             (PROTOCOLS[own], fits[own].reason.clone())
         }
         None if fits[common].bits > 0 => (PROTOCOLS[common], fits[common].reason.clone()),

@@ -185,7 +185,8 @@ fn bits(raw: u64, spec: &'static Spec) -> Message {
     let mut parts = spec.bits;
     let mut known = 0;
     while let Some((part, rest)) = parts.split_first() {
-        let run = parts.iter().take_while(|part| is_set(part, raw)).count();
+        let alike = |other: &&Bits| is_set(other, raw) && numbered(part.label) == numbered(other.label);
+        let run = if numbered(part.label).is_some() { parts.iter().take_while(alike).count() } else { 0 };
         let (next, left) = match parts.get(run.saturating_sub(1)) {
             Some(last) if run > 2 => (
                 Some(message!(
@@ -207,6 +208,12 @@ fn bits(raw: u64, spec: &'static Spec) -> Message {
         said = Some(with(said, message!("bits without a meaning")));
     }
     said.unwrap_or(message!("nothing set"))
+}
+
+/// "set" of "set 7": what a label says before its number, if it ends with one.
+fn numbered(label: &str) -> Option<&str> {
+    let name = label.trim_end_matches(|c: char| c.is_ascii_digit());
+    (name != label).then_some(name)
 }
 
 /// Whether a part is a flag without names, and set.

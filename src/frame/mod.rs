@@ -42,6 +42,8 @@ pub struct Protocol {
     pub verdict: fn(&[u8]) -> Verdict,
     /// How many of `bytes` the first telegram takes, where several may come in one piece.
     pub first: fn(&[u8]) -> usize,
+    /// The unit or station that is asked or answers.
+    pub unit: fn(&[u8]) -> Option<u8>,
     /// What tells who speaks.
     pub speaker: Speaker,
     /// What request and response have in common; `None` for what nobody answers.

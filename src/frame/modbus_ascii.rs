@@ -17,6 +17,7 @@ pub static PROTOCOL: Protocol = Protocol {
     fit,
     verdict: |bytes| ASCII.verdict(bytes),
     first: <[u8]>::len,
+    unit: |bytes| bytes.first().copied(),
     speaker: Speaker::Pdu(|bytes| (ASCII.pdu_bytes(bytes), ASCII.around())),
     exchange: serial::exchange,
     waiting: 1,

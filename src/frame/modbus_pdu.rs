@@ -21,6 +21,7 @@ pub static PROTOCOL: Protocol = Protocol {
     },
     verdict: |_| Verdict::NoCheck,
     first: <[u8]>::len,
+    unit: |_| None,
     speaker: Speaker::Pdu(|bytes| (bytes, 0)),
     exchange: |bytes| bytes.first().map(|function| u64::from(function & !EXCEPTION)),
     waiting: 1,

@@ -7,19 +7,24 @@
 
 use super::modbus_serial::{self as serial, Mode, Serial};
 use super::{Cargo, Fit, Protocol, Speaker, Verdict};
-use crate::field::{Role, Spec};
+use crate::field::{Direction, Role, Span, Spec};
 use crate::message;
+use crate::modbus::{Pdu, STANDARD};
 use crate::walk::CRC_16_MODBUS;
 
 pub static PROTOCOL: Protocol = Protocol {
     key: "modbus-rtu",
     label: "Modbus RTU",
     fit: |bytes, settings| match RTU.verdict(bytes) {
+        _ if first(bytes) < bytes.len() => {
+            Fit { bits: 20, reason: message!("it begins with a telegram whose CRC is right") }
+        }
         Verdict::Right => Fit { bits: 20, reason: message!("its last two bytes are the CRC of the others") },
         _ => serial::fit(RTU.pdu_bytes(bytes), settings.dialect),
     },
     verdict: |bytes| RTU.verdict(bytes),
-    first: <[u8]>::len,
+    first,
+    unit: |bytes| bytes.first().copied(),
     speaker: Speaker::Pdu(|bytes| (RTU.pdu_bytes(bytes), RTU.around())),
     exchange: serial::exchange,
     waiting: 1,
@@ -29,6 +34,21 @@ pub static PROTOCOL: Protocol = Protocol {
         Cargo::Profibus(..) => None,
     },
 };
+
+/// The length of the first telegram, where a right one ends before the bytes do and another can
+/// follow: a line of text may hold several.
+fn first(bytes: &[u8]) -> usize {
+    let all = bytes.len();
+    let Some(function) = bytes.get(1).filter(|_| RTU.verdict(bytes) != Verdict::Right) else { return all };
+    let ends = [Direction::Request, Direction::Response].map(|direction| {
+        let length = Pdu::kind(*function, direction, &STANDARD).length.of(bytes.get(1..).unwrap_or_default());
+        length.map_or(all, |length| length + RTU.around())
+    });
+    let right = |end: &usize| {
+        end + RTU.shortest() <= all && RTU.verdict(Span::new(0, *end).of(bytes)) == Verdict::Right
+    };
+    ends.into_iter().find(right).unwrap_or(all)
+}
 
 /// The mode with a CRC.
 ///

@@ -109,7 +109,7 @@ fn check_broadcast(w: &mut dyn Walker, unit: u8, pdu: &Pdu) {
     if unit != BROADCAST {
         return;
     }
-    let reads = pdu.body.only_reads();
+    let reads = pdu.body.only_reads() || pdu.body.access().is_some_and(|access| access.reads.is_some());
     if pdu.direction == Direction::Response {
         w.remark(
             &UNIT,

@@ -6,6 +6,7 @@
 //!
 //! Source: Modbus messaging on TCP/IP V1.0b, section 3.1.3.
 
+use super::modbus_rtu::RTU;
 use super::modbus_serial::{PduFit, answer, check_length, pdu_fit};
 use super::{Cargo, Content, Fit, Frame, Protocol, Settings, Speaker, Verdict};
 use crate::field::{Direction, Message, Name, Role, Severity, Spec};
@@ -20,6 +21,7 @@ pub static PROTOCOL: Protocol = Protocol {
     verdict: |_| Verdict::NoCheck,
     first,
     speaker: Speaker::Pdu(|bytes| (bytes.get(HEADER..).unwrap_or(&[]), HEADER)),
+    unit: |bytes| bytes.get(HEADER - 1).copied(),
     exchange: |bytes| match bytes {
         [high, low, _, _, _, _, unit, function, ..] => {
             let function = function & !crate::modbus::EXCEPTION;
@@ -89,20 +91,29 @@ fn first(bytes: &[u8]) -> usize {
 
 fn fit(bytes: &[u8], settings: &Settings) -> Fit {
     /// Small numbers with zeros before them are common: an RTU request for two registers from 0
-    /// looks like a header, too. So the function code counts as much as the length, but one that
-    /// belongs on serial lines only half: two bytes of a CRC can be unit and such a code.
+    /// looks like a header, too. So the length proves something only together with the function
+    /// code, and one that belongs on serial lines does little: two bytes of a CRC can be unit and
+    /// such a code.
     const LENGTH: u32 = 12;
     const FUNCTION: u32 = 12;
     let length = told(bytes);
     let whole = length.is_some_and(|length| length == bytes.len() || first(bytes) < bytes.len());
     let to = length.filter(|_| whole).unwrap_or(bytes.len()).max(HEADER);
     let function = bytes.get(HEADER..to).map_or(PduFit::Nothing, |pdu| pdu_fit(pdu, settings.dialect));
+    let certain = function == PduFit::Length && !serial_only(bytes, settings);
     let bits = match function {
         PduFit::Nothing => 0,
-        PduFit::Length if !serial_only(bytes, settings) => FUNCTION,
+        _ if certain => FUNCTION,
         PduFit::Length | PduFit::Function => FUNCTION / 2,
     };
+    let behind = bytes.get(COUNTED_FROM..).unwrap_or_default();
     match length {
+        Some(_) if identified(bytes) && RTU.verdict(behind) == Verdict::Right => Fit {
+            bits: LENGTH + FUNCTION,
+            reason: message!(
+                "behind a Modbus TCP header there is an RTU frame with its CRC, which TCP has not"
+            ),
+        },
         Some(_) if !identified(bytes) && whole => Fit {
             bits,
             reason: message!("it is laid out as Modbus TCP, though the protocol identifier is not 0"),
@@ -111,7 +122,7 @@ fn fit(bytes: &[u8], settings: &Settings) -> Fit {
             Fit { bits: 0, reason: message!("the protocol identifier is not that of Modbus TCP") }
         }
         Some(_) if whole => Fit {
-            bits: LENGTH + bits,
+            bits: if certain { LENGTH + bits } else { bits },
             reason: message!("it begins with a Modbus TCP header whose length counts the bytes behind it"),
         },
         Some(_) if bits > 0 => Fit {

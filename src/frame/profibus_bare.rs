@@ -106,6 +106,7 @@ const WITHOUT_FRAME: Protocol = Protocol {
     fit: |_, _| unlike(),
     verdict: |_| Verdict::NoCheck,
     first: <[u8]>::len,
+    unit: |_| None,
     speaker: Speaker::Always(Direction::Request),
     exchange: |_| None,
     waiting: 1,

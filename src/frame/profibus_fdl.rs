@@ -28,6 +28,7 @@ pub static PROTOCOL: Protocol = Protocol {
     fit,
     verdict,
     first,
+    unit: |bytes| stations(bytes).map(|(slave, _)| slave),
     speaker: Speaker::Frame(Fdl::direction),
     exchange,
     waiting: 1,
@@ -452,22 +453,52 @@ fn verdict(bytes: &[u8]) -> Verdict {
     }
 }
 
-/// The two stations and the slave's access point. Nobody answers a broadcast or a token.
+/// The two stations and the slave's access point. Nobody answers a broadcast, a token, or data sent
+/// without asking for an acknowledgement (SDN).
 fn exchange(bytes: &[u8]) -> Option<u64> {
-    let at = match *bytes.first()? {
-        SD1 | SD3 => 1,
-        SD2 => 1 + LENGTH_BYTES,
-        SC => return Some(ANY_EXCHANGE),
-        _ => return None,
+    if bytes == [SC] {
+        return Some(ANY_EXCHANGE);
+    }
+    let (slave, master) = stations(bytes)?;
+    let request = Fdl::direction(bytes)? == Direction::Request;
+    let at = head(bytes)?;
+    let function = FUNCTION.of(bytes.get(at + 2).copied()?.into());
+    if slave == BROADCAST || (request && matches!(function, SDN_LOW | SDN_HIGH)) {
+        return None;
+    }
+    let (to, from) = (*bytes.get(at)?, *bytes.get(at + 1)?);
+    // The access points stand behind the control byte, that of the destination first.
+    let place = match request {
+        true => extended(to).then_some(at + 3),
+        false => extended(from).then_some(at + 3 + usize::from(extended(to))),
     };
-    let address = |at: usize| bytes.get(at).map(|byte| byte & !0x80);
-    let (to, from) = (address(at)?, address(at + 1)?);
-    let (slave, master) = match Fdl::direction(bytes)? {
-        Direction::Request => (to, from),
-        Direction::Response => (from, to),
-    };
-    (slave != BROADCAST).then(|| u64::from(slave) << 8 | u64::from(master))
+    let sap = place.and_then(|place| bytes.get(place)).map_or(NO_SAP, |sap| u64::from(*sap));
+    Some(u64::from(slave) << 16 | u64::from(master) << 8 | sap)
 }
+
+/// Where the addresses begin.
+fn head(bytes: &[u8]) -> Option<usize> {
+    match *bytes.first()? {
+        SD1 | SD3 => Some(1),
+        SD2 => Some(1 + LENGTH_BYTES),
+        _ => None,
+    }
+}
+
+/// The slave and the master, without the bit for an access point.
+fn stations(bytes: &[u8]) -> Option<(u8, u8)> {
+    let at = head(bytes)?;
+    let address = |at: usize| bytes.get(at).map(|byte| byte & 0x7F);
+    let (to, from) = (address(at)?, address(at + 1)?);
+    Some(if Fdl::direction(bytes)? == Direction::Request { (to, from) } else { (from, to) })
+}
+
+/// Function codes of data sent without acknowledgement.
+const SDN_LOW: u64 = 4;
+const SDN_HIGH: u64 = 6;
+
+/// No access point, in an exchange.
+const NO_SAP: u64 = 0xFF;
 
 impl Telegram for Fdl {
     fn walk(&mut self, w: &mut dyn Walker) -> Walk {

@@ -7,8 +7,8 @@ use crate::field::{self, Argument, Direction, Severity, Span};
 use crate::frame::{self, Content, Frame, Protocol, Speaker, Verdict, modbus_ascii};
 use crate::message;
 use crate::modbus::Pdu;
-use crate::profibus::Service;
 use crate::profibus::jobs::{self, Jobs, Step};
+use crate::profibus::{Channel, Service};
 use crate::text::{self, Line, Remark, Style};
 use crate::walk::{self, guide};
 
@@ -93,8 +93,8 @@ pub struct Report {
     /// How many lines the text has, empty ones included.
     pub line_count: usize,
     pub(super) options: Options,
-    /// From which telegram on the devices are known to be set up otherwise, in their order.
-    learned: Vec<(usize, Settings)>,
+    /// What telegrams said of how devices are set up, in their order.
+    learned: Vec<Known>,
 }
 
 /// A telegram as far as it was looked at without reading its fields.
@@ -106,6 +106,8 @@ pub struct Telegram {
     pub choice: Choice,
     pub guess: Guess,
     pub verdict: Verdict,
+    /// The unit or station that is asked or answers.
+    pub unit: Option<u8>,
     /// The index of the request that it answers.
     pub answers: Option<usize>,
     /// The index of the response to it.
@@ -224,13 +226,20 @@ impl Report {
         let answers =
             exchange.and_then(|exchange| pairing.next(index, guess.direction, exchange, protocol.waiting));
         if let Some(request) = answers {
-            self.telegrams[request].answered_by = Some(index);
+            let asked = &mut self.telegrams[request];
+            asked.answered_by = Some(index);
+            if asked.guess.certainty == Certainty::Open {
+                let reason = message!("telegram {n} answers it", n = index + 1);
+                asked.guess = Guess { certainty: Certainty::Likely, reason, ..asked.guess.clone() };
+            }
         }
+        let unit = (protocol.unit)(&line.bytes);
         self.telegrams.push(Telegram {
             line,
             choice,
             guess,
             verdict,
+            unit,
             answers,
             answered_by: None,
             step: None,
@@ -324,35 +333,27 @@ impl Report {
 
     /// How the devices are set up when telegram `index` is sent.
     pub(super) fn settings(&self, index: usize) -> &Settings {
-        let known = self.learned.iter().rev().find(|(from, _)| *from <= index);
-        known.map_or(&self.options.settings, |(_, settings)| settings)
+        let unit = self.telegrams[index].unit;
+        let known = self.learned.iter().rev().find(|known| known.unit == unit && known.from <= index);
+        known.map_or(&self.options.settings, |known| &known.settings)
     }
 
     /// Follows the jobs of parameter channels, and takes from what is written how the devices are
     /// set up from then on.
     fn follow(&mut self) {
-        let profile = self.options.device;
         let mut slaves: Vec<(Option<u8>, Jobs)> = Vec::new();
-        let mut settings = self.options.settings.clone();
         for index in 0..self.telegrams.len() {
-            let pdu = matches!(self.telegrams[index].choice.protocol.speaker, Speaker::Pdu(_));
-            if pdu && profile.is_none() {
+            let telegram = &self.telegrams[index];
+            let pdu = matches!(telegram.choice.protocol.speaker, Speaker::Pdu(_));
+            if telegram.verdict == Verdict::Wrong || (pdu && self.options.device.is_none()) {
                 continue;
             }
+            let mut settings = self.settings(index).clone();
             let (frame, _) = self.read(index);
-            let mut changed = false;
-            match frame.content() {
-                Content::Modbus { pdu, .. } => {
-                    let written = pdu.body.access().filter(|access| access.write);
-                    let start = written.and_then(|access| access.start);
-                    if let (Some(profile), Some(access), Some(start)) = (profile, written, start) {
-                        for (address, value) in (start..=u16::MAX).zip(access.values) {
-                            changed |=
-                                profile.learn(address, 0, *value, access.table.width, &mut settings.device);
-                        }
-                    }
-                }
+            let changed = match frame.content() {
+                Content::Modbus { pdu, .. } => self.learn_registers(index, pdu, &mut settings.device),
                 Content::Profibus { slave, kind, body } => {
+                    let mut changed = false;
                     if let Some(layout) = body.layout() {
                         changed = settings.frame.profibus.layout != layout;
                         settings.frame.profibus.layout = layout;
@@ -365,22 +366,65 @@ impl Report {
                             slaves.len() - 1
                         });
                         let step = slaves[at].1.next(channel);
-                        let done = step.as_ref().filter(|step| step.state == jobs::State::Done);
-                        let written = done.filter(|_| channel.service() == Service::Write);
-                        if let (Some(profile), Some(value)) = (profile, written.and_then(|step| step.value)) {
-                            let (index, subindex) = (channel.index, channel.subindex);
-                            changed |= profile.learn(index, subindex, value, 4, &mut settings.device);
-                        }
+                        changed |= self.learn_parameter(channel, step.as_ref(), &mut settings.device);
                         self.telegrams[index].step = step;
                     }
+                    changed
                 }
-                Content::Nothing(_) => {}
-            }
+                Content::Nothing(_) => false,
+            };
             if changed {
-                self.learned.push((index + 1, settings.clone()));
+                let unit = self.telegrams[index].unit;
+                self.learned.push(Known { from: index + 1, unit, settings });
             }
         }
     }
+
+    /// Takes what registers were written, once that is confirmed, or if nobody answers at all.
+    fn learn_registers(&self, index: usize, pdu: &Pdu, settings: &mut device::Settings) -> bool {
+        let Some(profile) = self.options.device else { return false };
+        let telegram = &self.telegrams[index];
+        let request = match telegram.answers {
+            Some(request) if pdu.body.exception().is_none() => request,
+            None if telegram.answered_by.is_none() => index,
+            _ => return false,
+        };
+        if self.telegrams[request].verdict == Verdict::Wrong {
+            return false;
+        }
+        let (frame, _) = self.read(request);
+        let Content::Modbus { pdu, .. } = frame.content() else { return false };
+        let Some(access) = pdu.body.access().filter(|access| access.write) else { return false };
+        let Some(start) = access.start else { return false };
+        let width = access.table.width;
+        (start..=u16::MAX).zip(access.values).fold(false, |changed, (address, value)| {
+            profile.learn(address, 0, *value, width, settings) || changed
+        })
+    }
+
+    /// Takes what a job wrote, when it is done.
+    fn learn_parameter(
+        &self,
+        channel: &Channel,
+        step: Option<&Step>,
+        settings: &mut device::Settings,
+    ) -> bool {
+        let done = step.filter(|step| step.state == jobs::State::Done && channel.service() == Service::Write);
+        match (self.options.device, done.and_then(|step| step.value)) {
+            (Some(profile), Some(value)) => {
+                profile.learn(channel.index, channel.subindex, value, 4, settings)
+            }
+            _ => false,
+        }
+    }
+}
+
+/// How a device is known to be set up from some telegram on.
+#[derive(Clone, Debug)]
+struct Known {
+    from: usize,
+    unit: Option<u8>,
+    settings: Settings,
 }
 
 /// Puts bytes in place of the characters of Modbus ASCII that stand for them.

@@ -122,10 +122,18 @@ impl Report {
 impl Detail {
     /// Asks the device's table for the registers of a PDU.
     fn ask_registers(&mut self, profile: &'static Profile, settings: &device::Settings, pdu: &Pdu) {
+        let function = pdu.function & !EXCEPTION;
+        if !profile.functions.is_empty() && !profile.functions.contains(&function) {
+            let span = self.place(|spec| spec.key == "function").unwrap_or_default();
+            let message = message!("the device's manual does not list function {f}", f = function);
+            self.device.problems.push(Problem::warning("function-not-listed", span, message));
+        }
         let registers = |access: &Access<'_>| access.start.is_some() && !access.table.holds_switches();
         let Some(access) = pdu.body.access().filter(registers) else { return };
         let values = big_endian(&access);
-        self.device = profile.registers(&device_registers(&access, &values, &self.fields), settings);
+        let said = profile.registers(&device_registers(&access, &values, &self.fields), settings);
+        self.device.problems.extend(said.problems);
+        self.device.blocks = said.blocks;
     }
 
     /// Asks the device's table for the parameter and the process data of a telegram, and says it in
@@ -235,7 +243,14 @@ impl Detail {
         let spec = &pdu.kind.spec;
         let access = pdu.body.access();
         let write = access.is_some_and(|access| access.write);
-        if let Some(things) = self.device.sentence() {
+        // What is written without values, or besides reading, says more by itself.
+        let plain = access.is_none_or(|access| {
+            access.reads.is_none()
+                && (pdu.direction == Direction::Response || !write || !access.values.is_empty())
+        });
+        if let (Some(things), false) = (self.device.sentence(), plain) {
+            self.said = message!("{said} ({things})", said = self.said.clone(), things = things);
+        } else if let Some(things) = self.device.sentence() {
             let who = server.name();
             self.said = match (pdu.direction, write) {
                 (Direction::Request, false) => message!("ask {who} for {things}", who = who, things = things),

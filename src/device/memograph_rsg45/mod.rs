@@ -16,6 +16,7 @@ pub static PROFILE: Profile = Profile {
     key: "memograph-rsg45",
     label: "Endress+Hauser Memograph M RSG45",
     source: "Memograph M RSG45 Modbus supplement",
+    functions: &[3, 6, 16],
     ident: None,
     hex_addresses: false,
     areas: AREAS,
