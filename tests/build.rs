@@ -141,7 +141,7 @@ fn every_task_is_read_again() {
             assert_eq!(block.from, asked.address, "{label}");
             let codes: Vec<_> = detail.problems().iter().map(|problem| problem.code).collect();
             // A first draft holds zeros, which not every field takes, and no texts.
-            let expected = ["out-of-range", "data-missing", "half-value"];
+            let expected = ["out-of-range", "not-allowed", "data-missing", "half-value"];
             assert!(codes.iter().all(|code| expected.contains(code)), "{label}: {codes:?} in {text}");
             let writes =
                 detail.channel.as_ref().map_or(matches!(detail.function, Some(16 | 101)), |channel| {

@@ -63,6 +63,13 @@ const OPERATOR_PARAMETER: Spec = Spec::new("operator_parameter", "Operator param
 const fn mapping_entry(key: &'static str, label: &'static str) -> Spec {
     Spec::new(key, label)
         .bits(&MAPPING_ENTRY)
+        .rule(|raw| match Entry(raw as u32) {
+            Entry(0) => None,
+            entry if !(1..=2).contains(&entry.words()) => Some("the length is neither 1 nor 2 words"),
+            entry if entry.sets() == 0 => Some("no set is chosen"),
+            entry if entry.parameter() > LAST_PARAMETER => Some("no parameter has this address"),
+            _ => None,
+        })
         .names(&[Name { value: 0, label: SECOND_HALF, note: "" }])
         .note(
             "Entry N says which parameter is behind register start + N, in which sets, and how long it \
@@ -70,6 +77,9 @@ const fn mapping_entry(key: &'static str, label: &'static str) -> Spec {
         )
         .source(SOURCE)
 }
+
+/// The last parameter address that fits below the operator's registers: 5EFFh less 2000h.
+const LAST_PARAMETER: u16 = 0x3EFF;
 
 static MAPPING_ENTRY: [Bits; 10] = {
     let length = Bits::part(0, 8, "length", "length")
@@ -127,6 +137,11 @@ static PARAMETERS: &[Parameter] = &[
                     Name { value: 1, label: "RTU", note: "" },
                 ]),
             ])
+            .rule(|raw| match (raw >> 7 & 1, raw >> 5 & 3) {
+                (0, _) => Some("ASCII cannot be chosen yet"),
+                (_, 3) => Some("this character format is not defined"),
+                _ => None,
+            })
             .note("Protocol and character format of the Modbus line; C0h as delivered."),
     )
     .length(1),
@@ -134,7 +149,7 @@ static PARAMETERS: &[Parameter] = &[
         0x5F01,
         "FB.01",
         Spec::new("mdb_slave_addr_op", "MDB_SlaveAddr_OP")
-            .limits(1, 255)
+            .rule(|raw| (!matches!(raw, 1..=247 | 255)).then_some("1 to 247 are allowed, and 255"))
             .names(&[Name { value: 255, label: "taken from Sy.06", note: "If Sy.06 is 0, Modbus is off." }])
             .note("The operator's address on the line, 1 to 247; 255, as delivered, leaves it to Sy.06."),
     )

@@ -11,7 +11,7 @@ use crate::message;
 /// static QUANTITY: Spec =
 ///     Spec::new("quantity", "Quantity").role(Role::Count).limits(1, 125).note("How many to read.");
 /// ```
-#[derive(Debug, PartialEq)]
+#[derive(Debug)]
 pub struct Spec {
     /// Stable snake_case word of exports, vectors and links.
     pub key: &'static str,
@@ -22,6 +22,8 @@ pub struct Spec {
     pub format: Format,
     /// The smallest and the largest allowed value.
     pub limits: Option<(u64, u64)>,
+    /// What else a value must be: what is wrong with it, in a few words, or nothing.
+    pub rule: Option<fn(u64) -> Option<&'static str>>,
     /// What single values are called.
     pub names: &'static [Name],
     /// One or two sentences for a person who meets the field for the first time.
@@ -38,6 +40,13 @@ pub struct Spec {
     pub order: Order,
     /// How many numbers an item of a list stands for: 8 for a byte of coils.
     pub step: u64,
+}
+
+/// Specs are constants: the same key and label are the same spec.
+impl PartialEq for Spec {
+    fn eq(&self, other: &Self) -> bool {
+        (self.key, self.label) == (other.key, other.label)
+    }
 }
 
 /// A value with a name of its own.
@@ -157,6 +166,7 @@ impl Spec {
             role: Role::Data,
             format: Format::Decimal,
             limits: None,
+            rule: None,
             names: &[],
             note: "",
             source: "",
@@ -185,6 +195,11 @@ impl Spec {
 
     pub const fn limits(mut self, from: u64, to: u64) -> Self {
         self.limits = Some((from, to));
+        self
+    }
+
+    pub const fn rule(mut self, rule: fn(u64) -> Option<&'static str>) -> Self {
+        self.rule = Some(rule);
         self
     }
 

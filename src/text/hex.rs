@@ -167,12 +167,14 @@ impl Brackets {
     fn count(&mut self, letters: &[Letter]) {
         let mut last = ' ';
         let mut assigned = false;
+        let mut digits = false;
         for (index, letter) in letters.iter().enumerate() {
             if comment_length(&letters[index..]).is_some_and(|length| index + length == letters.len()) {
                 break;
             }
             match letter.c {
                 '=' => assigned = true,
+                c if c.is_ascii_digit() => digits = true,
                 '{' | '[' | '(' => {
                     self.depth += 1;
                     self.array |= assigned;
@@ -184,7 +186,8 @@ impl Brackets {
                 last = letter.c;
             }
         }
-        self.array |= matches!(last, '{' | '[' | '(');
+        // Behind bytes, a bracket at the end of a line opens nothing: `RX 01 03 [`.
+        self.array |= matches!(last, '{' | '[' | '(') && !digits;
     }
 
     fn continues(&self) -> bool {
@@ -614,6 +617,15 @@ mod tests {
         ] {
             assert_eq!(clean(text), TELEGRAM, "{text}");
         }
+    }
+
+    #[test]
+    fn a_bracket_behind_bytes_does_not_take_the_next_lines() {
+        for text in ["RX[8] 01 03 [\n01 03 00", "7e:0a[\n01 03 00"] {
+            assert_eq!(read(text).lines.len(), 2, "{text}");
+        }
+        assert_eq!(read("frame = [\n01 03\n]").lines.len(), 1);
+        assert_eq!(read("vec![\n0x01, 0x03\n]").lines.len(), 1);
     }
 
     #[test]

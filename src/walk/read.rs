@@ -129,6 +129,11 @@ impl Reader<'_> {
             };
             self.problem(Problem::warning("reserved-bits", self.last_span(), message));
         }
+        if let Some(wrong) = spec.rule.and_then(|rule| rule(raw)) {
+            let (label, wrong) = (Argument::Term(spec.label), Argument::Term(wrong));
+            let message = message!("{label}: {wrong}", label = label, wrong = wrong);
+            self.problem(Problem::error("not-allowed", self.last_span(), message));
+        }
         if let (false, Some((from, to))) = (spec.allows(raw), spec.limits) {
             let (label, raw, to) = (Argument::Term(spec.label), self.shown(spec, raw), self.shown(spec, to));
             let message = match spec.limits {
