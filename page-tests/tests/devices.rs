@@ -2,7 +2,6 @@
 
 use buslens::tool::{PROFILES, PROTOCOLS};
 use page_tests::{DESKTOP, PHONE, Page, Result};
-use thirtyfour::prelude::*;
 
 const TCP: &str = "00 01 00 00 00 06 FF 03 00 C8 00 03";
 const CHANNEL: &str = "52 00 23 00 00 0B 00 00\n00 00 00 00 00 00 00 00\n\
