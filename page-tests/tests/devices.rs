@@ -31,7 +31,7 @@ async fn the_protocol_is_told_and_can_be_chosen() -> Result {
     assert!(page.text(".detail .title").await?.contains("Modbus RTU"));
     assert!(page.text(".detail").await?.contains("Modbus RTU: set by hand"));
     // What was chosen stays for what is pasted next, and can be taken back.
-    page.one("#protocol option[value=auto]").await?.click().await?;
+    page.one("#protocol option[value='']").await?.click().await?;
     page.settle().await?;
     assert!(page.text(".detail .title").await?.contains("Modbus TCP request"));
     page.close().await

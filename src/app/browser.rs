@@ -5,7 +5,9 @@ use std::cell::RefCell;
 use gloo_timers::callback::Timeout;
 use leptos::prelude::*;
 use wasm_bindgen::JsCast;
-use web_sys::{Element, Event, FocusEvent, HtmlDocument, HtmlElement, HtmlTextAreaElement};
+use web_sys::{
+    Element, Event, FocusEvent, HtmlDocument, HtmlElement, HtmlSelectElement, HtmlTextAreaElement,
+};
 
 use crate::field::Span;
 
@@ -68,6 +70,11 @@ pub const INPUT: &str = "input";
 pub const LIST: &str = "list";
 pub const DETAIL: &str = "detail";
 
+/// The ids of the lists that say how the input is to be read.
+pub const PROTOCOL: &str = "protocol";
+pub const DIRECTION: &str = "direction";
+pub const DEVICE: &str = "device";
+
 /// The element with this id.
 pub fn element<T: JsCast>(id: &str) -> Option<T> {
     document().get_element_by_id(id)?.dyn_into().ok()
@@ -104,6 +111,19 @@ pub fn announce(text: String) {
     };
     // What waited before is dropped, and so never told.
     WAITING.with_borrow_mut(|waiting| *waiting = Some(Timeout::new(PAUSE, tell)));
+}
+
+/// The value of the list or field that an event is of.
+pub fn value(event: &Event) -> String {
+    let list = event.target().and_then(|target| target.dyn_into::<HtmlSelectElement>().ok());
+    list.map_or(String::new(), |list| list.value())
+}
+
+/// Chooses `value` in the list with this id.
+pub fn set_value(id: &str, value: &str) {
+    if let Some(list) = element::<HtmlSelectElement>(id) {
+        list.set_value(value);
+    }
 }
 
 /// The element at or above the event's target that `selector` fits.

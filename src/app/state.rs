@@ -4,7 +4,7 @@
 use leptos::prelude::*;
 
 use super::browser;
-use crate::field::{Field, Span, leaves};
+use crate::field::{Direction, Field, Span, leaves};
 use crate::tool::{Detail, Options, Report, Summary, Telegram, decode};
 
 /// The page's state, as handed to every part of it.
@@ -123,6 +123,12 @@ impl State {
             set(&mut decoded.options);
             decoded.decode();
             decoded.show(decoded.index());
+        });
+        // An example or a click elsewhere may have chosen.
+        self.decoded.with_untracked(|Decoded { options, .. }| {
+            browser::set_value(browser::PROTOCOL, options.protocol.map_or("", |it| it.key));
+            browser::set_value(browser::DIRECTION, options.direction.map_or("", Direction::key));
+            browser::set_value(browser::DEVICE, options.device.map_or("", |it| it.key));
         });
     }
 

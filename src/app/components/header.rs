@@ -1,6 +1,8 @@
 //! The line on top: name, promise, theme.
 
 use leptos::prelude::*;
+use maud::html;
+use web_sys::Event;
 
 use crate::app::browser;
 
@@ -9,25 +11,29 @@ const THEME: &str = "buslens.theme";
 
 #[component]
 pub fn Header() -> impl IntoView {
-    let theme = browser::remembered(THEME).unwrap_or_default();
-    let choose = |theme: String| {
+    let choose = |event: Event| {
+        let theme = browser::value(&event);
         if let Some(root) = document().document_element() {
             let _ = root.set_attribute("data-theme", &theme);
         }
         browser::remember(THEME, &theme);
     };
-    view! {
-        <header class="top">
-            <h1>"Bus"<span>"lens"</span></h1>
-            <p class="promise">"Reads field-bus telegrams. Nothing leaves this page."</p>
-            <label class="theme">
-                <span>"Theme"</span>
-                <select id="theme" aria-label="Theme" prop:value=theme on:change:target=move |event| choose(event.target().value())>
-                    <option value="">"System"</option>
-                    <option value="light">"Light"</option>
-                    <option value="dark">"Dark"</option>
-                </select>
-            </label>
-        </header>
-    }
+    view! { <header class="top" inner_html=content() on:change=choose></header> }
+}
+
+fn content() -> String {
+    let chosen = browser::remembered(THEME).unwrap_or_default();
+    let markup = html! {
+        h1 { "Bus" span { "lens" } }
+        p.promise { "Reads field-bus telegrams. Nothing leaves this page." }
+        label.theme {
+            span { "Theme" }
+            select id="theme" aria-label="Theme" {
+                @for (key, label) in [("", "System"), ("light", "Light"), ("dark", "Dark")] {
+                    option value=(key) selected[key == chosen] { (label) }
+                }
+            }
+        }
+    };
+    markup.into_string()
 }

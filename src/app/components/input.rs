@@ -1,15 +1,14 @@
 //! Where telegrams are pasted: the text, marks in it, and the line that says how it was read.
 
 use leptos::prelude::*;
-use leptos::wasm_bindgen::JsCast;
 use maud::{Markup, html};
-use web_sys::{Element, Event, HtmlDetailsElement, HtmlTextAreaElement};
+use web_sys::{Element, HtmlTextAreaElement};
 
-use super::{examples, marks};
+use super::{marks, settings};
 use crate::app::browser::{self, INPUT};
 use crate::app::state::{State, count};
-use crate::field::{Direction, Severity, Span};
-use crate::tool::{PROFILES, PROTOCOLS, Remark, Report};
+use crate::field::{Severity, Span};
+use crate::tool::{Remark, Report};
 
 #[component]
 pub fn Input(state: State) -> impl IntoView {
@@ -48,70 +47,7 @@ pub fn Input(state: State) -> impl IntoView {
                     on:scroll:target=move |event| scroll(&event.target())
                 ></textarea>
             </div>
-            <div class="settings">
-                <label>
-                    <span>"Protocol"</span>
-                    <select
-                        id="protocol"
-                        prop:value=move || state.decoded.with(|decoded| decoded.options.protocol.map_or("auto", |it| it.key))
-                        on:change:target=move |event| {
-                            let key = event.target().value();
-                            state.read_as(|options| options.protocol = PROTOCOLS.iter().copied().find(|it| it.key == key));
-                        }
-                        inner_html=choices("As the bytes tell", "auto", PROTOCOLS.iter().map(|it| (it.key, it.label)))
-                    ></select>
-                </label>
-                <label>
-                    <span>"Direction"</span>
-                    <select
-                        id="direction"
-                        prop:value=move || state.decoded.with(|decoded| decoded.options.direction.map_or("auto", Direction::key))
-                        on:change:target=move |event| {
-                            let key = event.target().value();
-                            let known = [Direction::Request, Direction::Response];
-                            state.read_as(|options| options.direction = known.into_iter().find(|it| it.key() == key));
-                        }
-                        inner_html=choices("As the bytes tell", "auto", DIRECTIONS.into_iter())
-                    ></select>
-                </label>
-                <label>
-                    <span>"Device"</span>
-                    <select
-                        id="device"
-                        prop:value=move || state.decoded.with(|decoded| decoded.options.device.map_or("none", |it| it.key))
-                        on:change:target=move |event| {
-                            let key = event.target().value();
-                            state.read_as(|options| options.device = PROFILES.iter().copied().find(|it| it.key == key));
-                        }
-                        inner_html=choices("Any", "none", PROFILES.iter().map(|it| (it.key, it.label)))
-                    ></select>
-                </label>
-                <details
-                    id="examples"
-                    class="menu"
-                    on:click=move |event| {
-                        if examples::load(state, &event) {
-                            close_menu(&event);
-                        }
-                    }
-                    on:keydown=move |event| {
-                        if event.key() == "Escape" {
-                            close_menu(&event);
-                        }
-                    }
-                    on:focusout=move |event| {
-                        if !browser::stays_within(&event, "details") {
-                            close_menu(&event);
-                        }
-                    }
-                >
-                    <summary>"Examples"</summary>
-                    <div class="examples" inner_html=examples::examples().into_string()></div>
-                </details>
-                <button type="button" class="quiet" on:click=move |_| state.load("")>
-                    "Clear"
-                </button>
-            </div>
+            <settings::Settings state />
             <div
                 class="reading"
                 inner_html=reading
@@ -128,36 +64,10 @@ pub fn Input(state: State) -> impl IntoView {
 
 const MARKS: &str = "marks";
 
-const DIRECTIONS: [(&str, &str); 2] = [("request", "All are requests"), ("response", "All are responses")];
-
-/// The options of a list: what counts where nobody chooses, then the others, each with its key.
-fn choices(
-    otherwise: &'static str,
-    key: &'static str,
-    others: impl Iterator<Item = (&'static str, &'static str)>,
-) -> String {
-    let markup = html! {
-        @for (key, label) in std::iter::once((key, otherwise)).chain(others) {
-            option value=(key) { (label) }
-        }
-    };
-    markup.into_string()
-}
-
 /// Keeps the marks behind their text.
 fn scroll(area: &HtmlTextAreaElement) {
     if let Some(marks) = browser::element::<Element>(MARKS) {
         marks.set_scroll_top(area.scroll_top());
-    }
-}
-
-/// Closes the menu that the event is in; who used the keyboard is back at its button.
-fn close_menu(event: &Event) {
-    if let Some(menu) = browser::closest(event, "details") {
-        if let Some(button) = menu.first_element_child().filter(|_| event.type_() == "keydown") {
-            browser::focus(&button);
-        }
-        menu.unchecked_into::<HtmlDetailsElement>().set_open(false);
     }
 }
 

@@ -39,14 +39,7 @@ pub fn Telegrams(state: State) -> impl IntoView {
     };
     view! {
         <section class="card telegrams" aria-labelledby="telegrams" hidden=move || total() == 0>
-            <h2 id="telegrams" class="title">"Telegrams"</h2>
-            <div class="row head" aria-hidden="true">
-                <span>"#"</span>
-                <span></span>
-                <span>"Unit"</span>
-                <span>"What it says"</span>
-                <span>"Check"</span>
-            </div>
+            <div inner_html=head().into_string()></div>
             <div
                 id=LIST
                 class="window"
@@ -64,6 +57,15 @@ pub fn Telegrams(state: State) -> impl IntoView {
                 inner_html=rows
             ></div>
         </section>
+    }
+}
+
+fn head() -> Markup {
+    html! {
+        h2.title id="telegrams" { "Telegrams" }
+        div.row.head aria-hidden="true" {
+            @for title in ["#", "", "Unit", "What it says", "Check"] { span { (title) } }
+        }
     }
 }
 

@@ -13,5 +13,6 @@ pub mod input;
 pub mod layout;
 pub mod list;
 pub mod marks;
+pub mod settings;
 pub mod strip;
 pub mod views;

@@ -1,0 +1,99 @@
+//! How the input is to be read, and the examples to put there.
+
+use leptos::prelude::*;
+use leptos::wasm_bindgen::JsCast;
+use maud::{Markup, html};
+use web_sys::{Event, HtmlDetailsElement, KeyboardEvent};
+
+use super::examples;
+use crate::app::browser::{self, DEVICE, DIRECTION, PROTOCOL};
+use crate::app::state::State;
+use crate::field::Direction;
+use crate::tool::{PROFILES, PROTOCOLS};
+
+#[component]
+pub fn Settings(state: State) -> impl IntoView {
+    view! {
+        <div
+            class="settings"
+            inner_html=content().into_string()
+            on:change=move |event| choose(state, &event)
+            on:click=move |event| {
+                if examples::load(state, &event) {
+                    close_menu(&event);
+                } else if browser::attribute(&event, "data-clear").is_some() {
+                    state.load("");
+                }
+            }
+            on:keydown=move |event: KeyboardEvent| {
+                if event.key() == "Escape" {
+                    close_menu(&event);
+                }
+            }
+            on:focusout=move |event| {
+                if !browser::stays_within(&event, MENU) {
+                    close_menu(&event);
+                }
+            }
+        ></div>
+    }
+}
+
+/// The menu of examples.
+const MENU: &str = "#examples";
+
+fn content() -> Markup {
+    let directions = [("request", "All are requests"), ("response", "All are responses")];
+    html! {
+        (list(PROTOCOL, "Protocol", "As the bytes tell", PROTOCOLS.iter().map(|it| (it.key, it.label))))
+        (list(DIRECTION, "Direction", "As the bytes tell", directions.into_iter()))
+        (list(DEVICE, "Device", "Any", PROFILES.iter().map(|it| (it.key, it.label))))
+        details.menu id="examples" {
+            summary { "Examples" }
+            div.examples { (examples::examples()) }
+        }
+        button.quiet type="button" data-clear="" { "Clear" }
+    }
+}
+
+/// A list to choose from: what counts where nobody chooses, then the others, each with its key.
+fn list(
+    id: &str,
+    label: &str,
+    otherwise: &str,
+    others: impl Iterator<Item = (&'static str, &'static str)>,
+) -> Markup {
+    html! {
+        label {
+            span { (label) }
+            select id=(id) {
+                option value="" { (otherwise) }
+                @for (key, label) in others {
+                    option value=(key) { (label) }
+                }
+            }
+        }
+    }
+}
+
+fn choose(state: State, event: &Event) {
+    let key = browser::value(event);
+    state.read_as(|options| match browser::attribute(event, "id").as_deref() {
+        Some(PROTOCOL) => options.protocol = PROTOCOLS.iter().copied().find(|it| it.key == key),
+        Some(DEVICE) => options.device = PROFILES.iter().copied().find(|it| it.key == key),
+        _ => {
+            let known = [Direction::Request, Direction::Response];
+            options.direction = known.into_iter().find(|it| it.key() == key);
+        }
+    });
+}
+
+/// Closes the menu that the event is in; who used the keyboard is back at its button.
+fn close_menu(event: &Event) {
+    if let Some(menu) = browser::closest(event, MENU) {
+        if let Some(button) = menu.first_element_child().filter(|_| event.type_() == "keydown") {
+            browser::focus(&button);
+        }
+        menu.unchecked_into::<HtmlDetailsElement>().set_open(false);
+    }
+}
