@@ -71,6 +71,11 @@ pub(super) const fn inverter_parameters(note: &'static str, source: &'static str
     Area::new(INVERTER, spec).blocks(0x3F00, 1, 0)
 }
 
+/// Whether a named parameter is the inverter's, and so may differ from set to set.
+pub(super) fn has_sets(parameter: &Parameter) -> bool {
+    INVERTER_PARAMETERS.iter().any(|inverter| inverter.address == parameter.address)
+}
+
 /// The inverter's parameters that the manuals name.
 pub(super) static INVERTER_PARAMETERS: &[Parameter] = &[
     inverter(

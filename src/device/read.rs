@@ -260,7 +260,7 @@ impl Profile {
         };
         // The subindex is a set mask only where the table does not use it otherwise.
         if keb_f5::INVERTER_INDICES.contains(&index)
-            && self.named(index, Some(subindex)).is_none_or(|parameter| parameter.subindex.is_none())
+            && self.named(index, Some(subindex)).is_none_or(keb_f5::has_sets)
         {
             let sets = set_names(subindex);
             block.field.problems.extend(here.sets_must_agree(subindex));

@@ -167,12 +167,11 @@ pub fn float(raw: u64, width: usize) -> String {
 pub fn parse_float(text: &str, width: usize) -> Option<u64> {
     let infinity = |text: &str| text.trim_start_matches('-') == "infinity";
     let text = text.replace('\u{2212}', "-");
-    let (raw, finite) = if width == 4 {
-        let value: f32 = lexical_core::parse(text.as_bytes()).ok()?;
-        (value.to_bits().into(), value.is_finite())
-    } else {
-        let value: f64 = lexical_core::parse(text.as_bytes()).ok()?;
-        (value.to_bits(), value.is_finite())
+    let value: f64 = lexical_core::parse(text.as_bytes()).ok()?;
+    // Rounding twice gives the same as rounding once for everything of less than 17 digits.
+    let (raw, finite) = match width {
+        4 => ((value as f32).to_bits().into(), (value as f32).is_finite()),
+        _ => (value.to_bits(), value.is_finite()),
     };
     // 1e99 is a number to us, and infinity to a float of 4 bytes: nobody means that.
     (finite || infinity(&text)).then_some(raw)
