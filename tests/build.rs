@@ -1,11 +1,13 @@
 //! What is asked of a device in its manual's words becomes the bytes that the manual prints, and
-//! everything that can be asked is read again as what was asked.
+//! everything that can be asked is read again as what was asked; every request has its responses.
 
 use buslens::device::{Access, Draft, Profile};
-use buslens::field::hex;
+use buslens::field::{Direction, hex};
+use buslens::frame::{Cargo, Settings};
+use buslens::modbus::{KINDS, STANDARD, exceptions};
 use buslens::tool::{Options, PROFILES, PROTOCOLS, build, decode};
 use buslens::walk::form::{self, Content, Entry};
-use buslens::walk::{Deviations, write};
+use buslens::walk::{Deviations, read, write};
 
 fn profile(key: &str) -> &'static Profile {
     PROFILES.iter().copied().find(|profile| profile.key == key).expect(key)
@@ -150,4 +152,42 @@ fn every_task_is_read_again() {
             assert_eq!(writes, asked.access == Access::Write, "{label}");
         }
     }
+}
+
+/// A healthy server's response to every request is read as its answer, without a problem; so is each
+/// refusal.
+#[test]
+fn every_request_has_its_responses() {
+    let requests = KINDS.iter().filter(|kind| kind.direction == Direction::Request);
+    for (kind, protocol) in requests.flat_map(|kind| PROTOCOLS.iter().map(move |protocol| (kind, protocol))) {
+        let Some(mut request) = (protocol.carry)(5, Cargo::Modbus(kind.pdu(&STANDARD))) else { continue };
+        let asked = hex(&write(request.as_mut(), &Deviations::default()));
+        let replies = request.replies();
+        assert_eq!(replies.len(), 1 + exceptions().len(), "{}", kind.spec.key);
+        for mut reply in replies {
+            let answer = hex(&write(reply.as_mut(), &Deviations::default()));
+            let options = Options { protocol: Some(protocol), ..Options::default() };
+            let report = decode(&format!("{asked}\n{answer}"), options);
+            let key = kind.spec.key;
+            assert_eq!(report.telegrams[1].answers, Some(0), "{key}, {}: {asked}, {answer}", protocol.key);
+            let detail = report.detail(1).expect("a response");
+            let codes: Vec<_> = detail.problems().iter().map(|problem| problem.code).collect();
+            assert!(codes.iter().all(|code| *code == "serial-only"), "{key}: {codes:?} in {answer}");
+        }
+    }
+}
+
+#[test]
+fn a_response_has_what_was_asked_for() {
+    let respond = |request: &str| {
+        let bytes: Vec<u8> = request.split(' ').map(|byte| u8::from_str_radix(byte, 16).unwrap()).collect();
+        let mut frame = (PROTOCOLS[0].expect)(&bytes, Direction::Request, &Settings::default());
+        read(frame.as_mut(), &bytes);
+        let mut reply = frame.replies().into_iter().next().expect("an answer");
+        hex(&write(reply.as_mut(), &Deviations::default()))
+    };
+    assert_eq!(respond("01 03 00 C8 00 03 84 35")[..26], *"01 03 06 00 00 00 00 00 00");
+    assert_eq!(respond("01 10 00 D7 00 03 06 00 80 42 F6 E9 79 28 15"), "01 10 00 D7 00 03 30 30");
+    assert_eq!(respond("05 06 0C 90 04 01 48 33"), "05 06 0C 90 04 01 48 33");
+    assert_eq!(respond("11 01 00 13 00 25 0E 84")[..23], *"11 01 05 00 00 00 00 00");
 }

@@ -11,7 +11,7 @@ mod profibus_bare;
 pub mod profibus_fdl;
 
 use crate::field::{Direction, Message, Spec};
-use crate::modbus::{Dialect, Pdu, STANDARD, Server};
+use crate::modbus::{Dialect, Pdu, STANDARD, Server, exceptions};
 use crate::profibus::{self, Body, Kind};
 use crate::walk::Telegram;
 
@@ -123,6 +123,23 @@ pub trait Frame: Telegram {
 
     /// Takes from the request what a response does not repeat, before the response is read.
     fn answer(&mut self, request: &Content<'_>);
+
+    /// The responses that can follow a request: that of a healthy server or slave first, then those
+    /// that refuse it. None to a response, or where nothing is known of them.
+    fn replies(&mut self) -> Vec<Box<dyn Frame>> {
+        Vec::new()
+    }
+}
+
+/// The PDUs that can answer a request.
+fn replies(request: &mut Pdu) -> Vec<Pdu> {
+    if request.direction == Direction::Response {
+        return Vec::new();
+    }
+    let refusals = exceptions().iter().map(|code| request.refusal(code.value as u8));
+    let mut replies: Vec<Pdu> = refusals.collect();
+    replies.insert(0, request.reply());
+    replies
 }
 
 /// What a frame carries.

@@ -4,7 +4,7 @@
 //! Source: Modbus application protocol V1.1b3, section 4.1.
 
 use super::modbus_serial::{PduFit, answer, pdu_fit};
-use super::{Cargo, Content, Fit, Frame, Protocol, Speaker, Verdict};
+use super::{Cargo, Content, Fit, Frame, Protocol, Speaker, Verdict, replies};
 use crate::field::Message;
 use crate::message;
 use crate::modbus::{EXCEPTION, Pdu, Server};
@@ -57,5 +57,10 @@ impl Frame for Bare {
 
     fn answer(&mut self, request: &Content<'_>) {
         answer(&mut self.pdu, request);
+    }
+
+    fn replies(&mut self) -> Vec<Box<dyn Frame>> {
+        let pdus = replies(&mut self.pdu).into_iter();
+        pdus.map(|pdu| -> Box<dyn Frame> { Box::new(Self { pdu }) }).collect()
     }
 }

@@ -197,6 +197,11 @@ impl Body for ReadResponse {
     fn answer(&mut self, request: &Access<'_>) {
         self.asked = request.asked();
     }
+
+    fn reply(&mut self, request: &Access<'_>) {
+        let count = request.asked().map_or(0, |(_, count)| count);
+        self.coils = vec![Eight::default(); count.div_ceil(8)];
+    }
 }
 
 /// Switches one coil: address (2 bytes), FF00h or 0000h (2 bytes); the response repeats the request.

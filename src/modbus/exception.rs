@@ -52,7 +52,7 @@ impl Body for Exception {
     }
 }
 
-static CODE: Spec = Spec::new("exception", "Exception code")
+pub(super) static CODE: Spec = Spec::new("exception", "Exception code")
     .short("Exception")
     .role(Role::Status)
     .note("Why the server refuses.")

@@ -39,9 +39,9 @@ use choice::Choice;
 pub use length::Length;
 pub use registers::{Layout, Table};
 
-use crate::field::{Direction, Message, Role, Severity, Spec};
+use crate::field::{Direction, Message, Name, Role, Severity, Spec, problems};
 use crate::message;
-use crate::walk::{Telegram, Walk, Walker};
+use crate::walk::{self, Deviations, Telegram, Walk, Walker};
 
 /// Every telegram that a function code has, requests before responses.
 pub static KINDS: &[&Kind] = &[
@@ -112,6 +112,11 @@ pub static DIALECTS: &[&Dialect] = &[
 /// The bit that a server sets in the function code to refuse a request.
 pub const EXCEPTION: u8 = 0x80;
 
+/// Why a server can refuse, by code.
+pub fn exceptions() -> &'static [Name] {
+    exception::CODE.names
+}
+
 /// The most bytes a PDU can have (section 4.1: 256 of a serial frame less address and check).
 pub const LONGEST_PDU: usize = 253;
 
@@ -176,6 +181,9 @@ pub trait Body: Telegram {
 
     /// Takes from the request what a response does not repeat, before the response is read.
     fn answer(&mut self, _request: &Access<'_>) {}
+
+    /// Makes an empty response one that a healthy server would give, with zeros for what it reads.
+    fn reply(&mut self, _request: &Access<'_>) {}
 }
 
 /// Whom a request is for and a response is from.
@@ -287,6 +295,30 @@ impl Pdu {
         let Some(access) = request.body.access() else { return };
         self.body.answer(&access);
         self.asked = access.write.then(|| (access.start, access.count, access.values.to_vec()));
+    }
+
+    /// The response that a healthy server would give, with zeros for what it reads.
+    pub fn reply(&mut self) -> Self {
+        let mut reply = Self::expect(self.function, Direction::Response, self.dialect);
+        reply.answer(self);
+        // Most responses that read nothing repeat the request, or its beginning.
+        let bytes = walk::write(self, &Deviations::default());
+        let fields = walk::read(&mut reply, &bytes).fields;
+        if problems(&fields).iter().any(|problem| problem.code != "unexpected-bytes") {
+            reply = Self::expect(self.function, Direction::Response, self.dialect);
+            reply.answer(self);
+        }
+        if let Some(access) = self.body.access() {
+            reply.body.reply(&access);
+        }
+        reply
+    }
+
+    /// The response of a server that refuses it.
+    pub fn refusal(&self, code: u8) -> Self {
+        let mut refusal = Self::expect(self.function | EXCEPTION, Direction::Response, self.dialect);
+        refusal.body = Box::new(exception::Exception { code });
+        refusal
     }
 
     /// Says so where a response confirms something else than was to be written.

@@ -296,6 +296,10 @@ impl Body for ReadResponse {
     fn answer(&mut self, request: &Access<'_>) {
         self.asked = request.asked();
     }
+
+    fn reply(&mut self, request: &Access<'_>) {
+        self.values = vec![0; request.asked().map_or(0, |(_, count)| count)];
+    }
 }
 
 /// Writes one register: address (2 bytes), value; the response repeats the request.

@@ -24,7 +24,8 @@ pub static RESPONSE: Kind = Kind {
         .source(SOURCE),
     length: Length::Counted { at: 1, unit: 1 },
     serial_only: true,
-    new: || Box::new(Response { about: Vec::new() }),
+    // An ID of one byte, and running.
+    new: || Box::new(Response { about: vec![0, 0xFF] }),
 };
 
 /// Answers with byte count (1), server ID, run indicator (1: 00h off, FFh on) and whatever the device adds.

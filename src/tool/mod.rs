@@ -1,6 +1,7 @@
 //! What the page and the command line offer: plain data in, plain data out.
 
 mod build;
+pub mod copy;
 mod decode;
 mod detail;
 pub mod examples;
