@@ -61,10 +61,17 @@ fn memograph(unit: u8, label: &str, entries: &[(&str, &str)]) -> String {
 #[test]
 fn the_telegrams_of_the_memograph_manual() {
     assert_eq!(
-        memograph(1, "Write Universal channel", &[("number", "6"), ("status", "good"), ("value", "123.456")]),
+        memograph(
+            1,
+            "Write Universal channel at 200 to 319",
+            &[("number", "6"), ("status", "good"), ("value", "123.456")]
+        ),
         "01 10 00 D7 00 03 06 00 80 42 F6 E9 79 28 15"
     );
-    assert_eq!(memograph(1, "Read Universal channel", &[("number", "1")]), "01 03 00 C8 00 03 84 35");
+    assert_eq!(
+        memograph(1, "Read Universal channel at 200 to 319", &[("number", "1")]),
+        "01 03 00 C8 00 03 84 35"
+    );
     assert_eq!(
         memograph(5, "Write Event text", &[("text", "ABCDE ")]),
         "05 10 0B D0 00 03 06 41 42 43 44 45 20 D8 4E"
@@ -113,7 +120,7 @@ fn keb_by_register_and_by_index() {
 
 #[test]
 fn a_number_that_does_not_exist_is_said() {
-    let mut channel = draft("memograph-rsg45", "Read Universal channel", &[("number", "41")]);
+    let mut channel = draft("memograph-rsg45", "Read Universal channel at 200 to 319", &[("number", "41")]);
     let said = build(&mut channel, 1, PROTOCOLS[0]).err().expect("refused").to_string();
     assert_eq!(said, "Universal channel 41 does not exist: there are 1 to 40");
 }

@@ -39,15 +39,28 @@ impl Profile {
 }
 
 impl Task {
-    /// "Write universal channel".
+    /// "Write universal channel"; with its addresses where several areas hold the same thing.
     pub fn label(&self) -> Message {
-        let (label, id) = match self.target {
-            Target::Area(area) => (area.spec.label, ""),
-            Target::Parameter(parameter) => (parameter.spec.label, parameter.id),
-        };
-        let what = match id {
-            "" => Message::term(label),
-            id => message!("{label} ({id})", label = Argument::Term(label), id = id.to_owned()),
+        let what = match self.target {
+            Target::Area(area) => {
+                let label = Argument::Term(area.spec.label);
+                let alike = self.profile.areas.iter().filter(|other| other.spec.label == area.spec.label);
+                match alike.count() {
+                    1 => Message::term(area.spec.label),
+                    _ => message!(
+                        "{label} at {from} to {to}",
+                        label = label,
+                        from = self.profile.address(area.from),
+                        to = self.profile.address(area.last())
+                    ),
+                }
+            }
+            Target::Parameter(Parameter { id: "", spec, .. }) => Message::term(spec.label),
+            Target::Parameter(parameter) => message!(
+                "{label} ({id})",
+                label = Argument::Term(parameter.spec.label),
+                id = parameter.id.to_owned()
+            ),
         };
         match self.access {
             Access::Write => message!("write {what}", what = what),

@@ -17,7 +17,7 @@ pub use draft::{Asked, Draft, Target, Task};
 pub use keb_f5::ProcessWord;
 pub use read::{Block, Numbers, Process, Registers, Said};
 
-use crate::field::Spec;
+use crate::field::{Spec, hex_value};
 use crate::walk::Telegram;
 
 /// All devices.
@@ -204,6 +204,11 @@ impl Profile {
         self.parameters.iter().copied().flatten()
     }
 
+    /// An address as the manual writes it.
+    pub fn address(&self, address: u16) -> String {
+        address_text(address, self.hex_addresses)
+    }
+
     /// The area that has `address`.
     pub fn area(&self, address: u16) -> Option<&Area> {
         self.areas.iter().find(|area| (area.from..=area.last()).contains(&address))
@@ -241,6 +246,11 @@ impl Default for Settings {
             process_input: keb_f5::STANDARD_INPUT.to_vec(),
         }
     }
+}
+
+/// An address in decimal or in hex.
+fn address_text(address: u16, hex: bool) -> String {
+    if hex { hex_value(address.into(), 2) } else { address.to_string() }
 }
 
 impl Area {

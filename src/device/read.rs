@@ -1,6 +1,6 @@
 //! Reading registers and parameters by a device's table.
 
-use super::{Access, Area, Content, Mapping, Parameter, Part, Profile, Settings, keb_f5};
+use super::{Access, Area, Content, Mapping, Parameter, Part, Profile, Settings, address_text, keb_f5};
 use crate::field::{
     Argument, Field, Format, Message, Numbering, Order, Problem, Role, Span, Spec, Value, hex_value,
 };
@@ -127,10 +127,7 @@ impl Block {
 
     /// Its addresses: `215 to 217`, in hex where the manual writes them so.
     pub fn registers(&self) -> String {
-        let shown = |address: u16| match self.hex {
-            true => hex_value(address.into(), 2),
-            false => address.to_string(),
-        };
+        let shown = |address: u16| address_text(address, self.hex);
         if self.from == self.to {
             shown(self.from)
         } else {

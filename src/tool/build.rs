@@ -14,7 +14,7 @@ use crate::profibus::{Channel, Service, Settings, parameter_channel};
 /// use buslens::walk::{Deviations, form, write};
 ///
 /// let memograph = PROFILES.iter().find(|profile| profile.key == "memograph-rsg45").unwrap();
-/// let task = memograph.tasks().into_iter().find(|task| task.label().to_string() == "write Universal channel").unwrap();
+/// let task = memograph.tasks().into_iter().find(|task| task.label().to_string() == "write Universal channel at 200 to 319").unwrap();
 /// let mut draft = task.draft();
 /// draft.number = 6;
 /// let mut request = build(&mut draft, 1, PROTOCOLS[0]).unwrap();

@@ -7,6 +7,7 @@ mod detail;
 pub mod examples;
 #[cfg(feature = "json")]
 pub mod json;
+mod offers;
 #[cfg(feature = "json")]
 pub mod settings;
 mod views;
@@ -19,4 +20,5 @@ pub use crate::walk::guide::{Row, Size};
 pub use build::build;
 pub use decode::{Options, Report, Settings, Summary, Telegram, decode};
 pub use detail::Detail;
+pub use offers::{Offer, offers};
 pub use views::{Kind, View, views};
