@@ -110,7 +110,7 @@ impl Task {
             (Access::Write, Target::Area(area)) => match area.content {
                 Content::Telegram { write: Some(new), .. } => new(),
                 Content::Parts(parts) => {
-                    let part = |part: &Part| (part.spec, width * usize::from(part.registers));
+                    let part = |part: &Part| (part.written, width * usize::from(part.registers));
                     numbers(&parts.iter().map(part).collect::<Vec<_>>())
                 }
                 _ => numbers(&[(&area.spec, width * usize::from(area.stride))]),

@@ -109,6 +109,8 @@ pub type New = fn() -> Box<dyn Telegram>;
 #[derive(Debug)]
 pub struct Part {
     pub spec: &'static Spec,
+    /// What it is when it is written, where that is something else.
+    pub written: &'static Spec,
     /// How many addresses it takes.
     pub registers: u16,
 }
@@ -286,6 +288,24 @@ impl Area {
     /// The last address.
     pub const fn last(&self) -> u16 {
         self.from + (self.stride * self.count - 1)
+    }
+}
+
+impl Part {
+    /// A number that is the same whether it is read or written.
+    pub const fn new(spec: &'static Spec, registers: u16) -> Self {
+        Self { spec, written: spec, registers }
+    }
+
+    /// With other words for what a client writes.
+    pub const fn written(mut self, written: &'static Spec) -> Self {
+        self.written = written;
+        self
+    }
+
+    /// What it is to a client that wants this.
+    pub fn spec(&self, access: Access) -> &'static Spec {
+        if access == Access::Write { self.written } else { self.spec }
     }
 }
 

@@ -463,7 +463,7 @@ impl Here<'_> {
             ((self.address - area.from) / area.stride, (self.address - area.from) % area.stride);
         let number = area.first.map(|first| Numbering::At(first + u64::from(index)));
         let there = usize::from(area.stride - inside).min(self.left);
-        let whole = [Part { spec, registers: area.stride }];
+        let whole = [Part::new(spec, area.stride)];
         let parts: &[Part] = if parts.is_empty() { &whole } else { parts };
         let mut wanted = Vec::new();
         let mut at = 0;
@@ -478,7 +478,8 @@ impl Here<'_> {
             }
             wanted.push((part, to - from));
         }
-        let widths: Vec<_> = wanted.iter().map(|(part, registers)| (part.spec, *registers)).collect();
+        let widths: Vec<_> =
+            wanted.iter().map(|(part, registers)| (part.spec(self.registers.access), *registers)).collect();
         let mut block = self.numbers(spec, number, area.access, &widths, there);
         let Some((at, (part, _))) =
             wanted.iter().enumerate().find(|(_, (part, registers))| *registers < usize::from(part.registers))

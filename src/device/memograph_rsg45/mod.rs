@@ -80,12 +80,28 @@ const fn command(from: u16, registers: u16, spec: Spec, read: Option<New>, write
 }
 
 /// Status, then a float of 4 bytes.
-const SINGLE: &[Part] = &[Part { spec: &STATUS, registers: 1 }, Part { spec: &VALUE, registers: 2 }];
+const SINGLE: &[Part] = &[Part::new(&STATUS, 1).written(&WRITTEN_STATUS), Part::new(&VALUE, 2)];
 
 /// Status, then a float of 8 bytes.
-const DOUBLE: &[Part] = &[Part { spec: &STATUS, registers: 1 }, Part { spec: &VALUE, registers: 4 }];
+const DOUBLE: &[Part] = &[Part::new(&STATUS, 1).written(&WRITTEN_STATUS), Part::new(&VALUE, 4)];
 
 static STATUS: Spec = status("status", "Status");
+
+/// What a client writes: a range of codes for each worth, and no limits.
+static WRITTEN_STATUS: Spec = Spec::new("status", "Status")
+    .role(Role::Status)
+    .bits(&[
+        Bits::part(0, 6, "detail", "detail").names(&[Name { value: 0, label: "", note: "" }]),
+        Bits::part(6, 2, "worth", "worth").names(&[
+            Name { value: 2, label: "good", note: "80h to FFh." },
+            Name { value: 3, label: "good", note: "80h to FFh." },
+            Name { value: 1, label: "uncertain", note: "40h to 7Fh." },
+            Name { value: 0, label: "invalid", note: "00h to 3Fh: the value is not used." },
+        ]),
+        Bits::reserved(8, 8),
+    ])
+    .note("What the value is worth. The device watches its limits itself: the high byte should be 0.")
+    .source("Memograph M RSG45 Modbus supplement, 2.6.14");
 
 static VALUE: Spec = Spec::new("value", "Value")
     .format(Format::Float)
@@ -106,7 +122,6 @@ const fn status(key: &'static str, label: &'static str) -> Spec {
 const STATUS_BITS: &[Bits] = &[
     Bits::part(0, 8, "float_status", "float status")
         .names(&[
-            Name { value: 0x00, label: "invalid", note: "What a client writes for a value not to be used." },
             Name { value: 0x01, label: "open circuit", note: "A wire of the sensor is broken or loose." },
             Name { value: 0x02, label: "signal too high", note: "" },
             Name { value: 0x03, label: "signal too low", note: "" },
@@ -123,9 +138,7 @@ const STATUS_BITS: &[Bits] = &[
             Name { value: 0x82, label: "good, high limit or rising gradient", note: "" },
             Name { value: 0x83, label: "good, both limits or band", note: "" },
         ])
-        .note(
-            "Other codes, and all that a client writes: up to 3Fh invalid, up to 7Fh uncertain, else good.",
-        ),
+        .note("Other codes: up to 3Fh invalid, up to 7Fh uncertain, else good."),
     Bits::flag(8, "limit_1", "limit 1 violated"),
     Bits::flag(9, "limit_2", "limit 2 violated"),
     Bits::flag(10, "limit_3", "limit 3 violated"),
