@@ -96,3 +96,20 @@ async fn the_display_of_a_device_is_explained() -> Result {
     assert!(page.text(".remarks").await?.contains("control board does not answer"));
     page.close().await
 }
+
+#[tokio::test(flavor = "multi_thread")]
+async fn what_was_typed_and_chosen_survives_a_reload() -> Result {
+    let page = Page::open(DESKTOP, false).await?;
+    page.paste("01 03 00 C8 00 03 84 35\n01 03 06 00 80 42 A4 F1 DE B0 F8").await?;
+    page.one("#device option[value=memograph-rsg45]").await?.click().await?;
+    page.settle().await?;
+    page.driver.refresh().await?;
+    page.one("#telegram-1").await?;
+    page.choose(1).await?;
+    assert_eq!(page.text(".detail h2").await?, "Unit 1 answers: Universal channel 1 = 82.4724, good.");
+    assert_eq!(page.value("return document.getElementById('device').value").await?, "memograph-rsg45");
+    page.paste("").await?;
+    page.driver.refresh().await?;
+    assert_eq!(page.text(".welcome h2").await?, "What does this telegram say?");
+    page.close().await
+}

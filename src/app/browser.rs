@@ -6,7 +6,7 @@ use gloo_timers::callback::Timeout;
 use leptos::prelude::*;
 use wasm_bindgen::JsCast;
 use web_sys::{
-    Element, Event, FocusEvent, HtmlDocument, HtmlElement, HtmlSelectElement, HtmlTextAreaElement,
+    Element, Event, EventInit, FocusEvent, HtmlDocument, HtmlElement, HtmlSelectElement, HtmlTextAreaElement,
 };
 
 use crate::field::Span;
@@ -28,17 +28,21 @@ pub fn tell_of_panics() {
     }));
 }
 
-/// Keeps a small setting in the browser, where the browser allows that.
-pub fn remember(key: &str, value: &str) {
+/// Keeps what belongs to the element `id` in the browser, where the browser allows that.
+pub fn remember(id: &str, value: &str) {
     if let Ok(Some(storage)) = window().local_storage() {
-        // A full or forbidden storage only means that the setting is gone at the next visit.
-        let _ = storage.set_item(key, value);
+        // A full or forbidden storage only means that it is gone at the next visit.
+        let _ = storage.set_item(&kept_as(id), value);
     }
 }
 
-/// A setting kept by [`remember`].
-pub fn remembered(key: &str) -> Option<String> {
-    window().local_storage().ok()??.get_item(key).ok()?
+/// What was kept by [`remember`].
+pub fn remembered(id: &str) -> Option<String> {
+    window().local_storage().ok()??.get_item(&kept_as(id)).ok()?
+}
+
+fn kept_as(id: &str) -> String {
+    format!("buslens.{id}")
 }
 
 /// Copies `text`; the clipboard of the browser is missing where the page comes over plain http.
@@ -119,10 +123,31 @@ pub fn value(event: &Event) -> String {
     list.map_or(String::new(), |list| list.value())
 }
 
-/// Chooses `value` in the list with this id.
+/// Chooses `value` in the list with this id, and keeps it for the next visit.
 pub fn set_value(id: &str, value: &str) {
+    remember(id, value);
     if let Some(list) = element::<HtmlSelectElement>(id) {
         list.set_value(value);
+    }
+}
+
+/// Brings back what was typed and chosen before a reload, or before the tab was lost. The page
+/// hears of it like of any other input.
+pub fn bring_back() {
+    for (id, event) in [(INPUT, "input"), (PROTOCOL, "change"), (DIRECTION, "change"), (DEVICE, "change")] {
+        let Some(kept) = remembered(id).filter(|kept| !kept.is_empty()) else { continue };
+        if let Some(area) = element::<HtmlTextAreaElement>(id) {
+            area.set_value(&kept);
+        } else if let Some(list) = element::<HtmlSelectElement>(id) {
+            list.set_value(&kept);
+        }
+        let heard = EventInit::new();
+        heard.set_bubbles(true);
+        if let (Some(element), Ok(event)) =
+            (element::<Element>(id), Event::new_with_event_init_dict(event, &heard))
+        {
+            let _ = element.dispatch_event(&event);
+        }
     }
 }
 

@@ -16,6 +16,7 @@ use state::State;
 pub fn start() {
     browser::tell_of_panics();
     mount_to_body(Page);
+    browser::bring_back();
 }
 
 #[component]

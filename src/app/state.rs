@@ -100,6 +100,10 @@ impl State {
             decoded.decode();
             decoded.show(telegram_at(&decoded.report, cursor).unwrap_or(decoded.index()));
         });
+        self.decoded.with_untracked(|decoded| {
+            let kept = if decoded.text.len() <= LONGEST_KEPT { &decoded.text } else { "" };
+            browser::remember(browser::INPUT, kept);
+        });
         browser::announce(announcement(self.decoded.with_untracked(|decoded| decoded.report.summary())));
     }
 
@@ -167,6 +171,9 @@ impl State {
         }
     }
 }
+
+/// Longer inputs are not kept for the next visit: browsers allow a few megabytes in all.
+const LONGEST_KEPT: usize = 500_000;
 
 /// The telegram at byte `cursor` of the text, or the next one.
 fn telegram_at(report: &Report, cursor: usize) -> Option<usize> {

@@ -7,7 +7,7 @@ use web_sys::Event;
 use crate::app::browser;
 
 /// The boot script reads the same setting, so that the page comes up in the right colours.
-const THEME: &str = "buslens.theme";
+const THEME: &str = "theme";
 
 #[component]
 pub fn Header() -> impl IntoView {
