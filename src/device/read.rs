@@ -73,18 +73,11 @@ impl Said {
             std::ptr::eq(one.field.spec, other.field.spec) && one.is_only_named() && other.is_only_named()
         };
         let runs: Vec<&[Block]> = self.blocks.chunk_by(alike).collect();
-        let mut said: Option<Message> = None;
-        for run in runs.iter().take(SHOWN) {
-            let next = match run {
-                [first, .., last] => message!("{from} to {to}", from = first.label(), to = last.label()),
-                [only] => only.sentence(),
-                [] => continue,
-            };
-            said = Some(match said {
-                Some(said) => message!("{said}; {next}", said = said, next = next),
-                None => next,
-            });
-        }
+        let said = Message::clauses(runs.iter().take(SHOWN).filter_map(|run| match run {
+            [first, .., last] => Some(message!("{from} to {to}", from = first.label(), to = last.label())),
+            [only] => Some(only.sentence()),
+            [] => None,
+        }));
         match runs.len().checked_sub(SHOWN) {
             None | Some(0) => said,
             Some(more) => said.map(|said| message!("{said}; and {more} more", said = said, more = more)),
@@ -153,20 +146,12 @@ impl Block {
             .filter_map(|leaf| shown(leaf).map(|value| (leaf, value)))
             .collect();
         let several = leaves.len() > 1;
-        let mut told: Option<Message> = None;
-        for (leaf, value) in leaves {
-            let next = match leaf.value {
-                Value::Number { .. } | Value::Text(_) if several => {
-                    message!("{label} {value}", label = leaf.label(), value = value)
-                }
-                _ => value,
-            };
-            told = Some(match told {
-                Some(told) => message!("{told}, {next}", told = told, next = next),
-                None => next,
-            });
-        }
-        told
+        Message::list(leaves.into_iter().map(|(leaf, value)| match leaf.value {
+            Value::Number { .. } | Value::Text(_) if several => {
+                message!("{label} {value}", label = leaf.label(), value = value)
+            }
+            _ => value,
+        }))
     }
 
     fn leaves(&self) -> impl Iterator<Item = &Field> {

@@ -34,6 +34,18 @@ impl Message {
         self.arguments.push((name, value.into()));
     }
 
+    /// "a, b, c"; nothing of nothing.
+    pub fn list(parts: impl IntoIterator<Item = Self>) -> Option<Self> {
+        let join = |said, next| crate::message!("{said}, {next}", said = said, next = next);
+        parts.into_iter().reduce(join)
+    }
+
+    /// "a; b; c", of parts that may have commas.
+    pub fn clauses(parts: impl IntoIterator<Item = Self>) -> Option<Self> {
+        let join = |said, next| crate::message!("{said}; {next}", said = said, next = next);
+        parts.into_iter().reduce(join)
+    }
+
     /// "1 byte", "3 bytes".
     pub fn bytes(count: usize) -> Self {
         match count {

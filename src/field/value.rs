@@ -180,7 +180,7 @@ pub fn parse_float(text: &str, width: usize) -> Option<u64> {
 /// "handshake 1, 2 bytes, write": the flags that are set and the numbers of the other parts. Three
 /// or more flags in a row are "set 0 to set 7".
 fn bits(raw: u64, spec: &'static Spec) -> Message {
-    let mut said: Option<Message> = None;
+    let mut said = Vec::new();
     let mut parts = spec.bits;
     let mut known = 0;
     while let Some((part, rest)) = parts.split_first() {
@@ -199,14 +199,12 @@ fn bits(raw: u64, spec: &'static Spec) -> Message {
         };
         known |= parts.iter().take(parts.len() - left.len()).fold(0, |mask, part| part.put(mask, u64::MAX));
         parts = left;
-        if let Some(next) = next {
-            said = Some(with(said, next));
-        }
+        said.extend(next);
     }
     if raw & !known != 0 {
-        said = Some(with(said, message!("bits without a meaning")));
+        said.push(message!("bits without a meaning"));
     }
-    said.unwrap_or(message!("nothing set"))
+    Message::list(said).unwrap_or(message!("nothing set"))
 }
 
 /// "set" of "set 7": what a label says before its number, if it ends with one.
@@ -233,13 +231,6 @@ fn part_said(part: &'static Bits, raw: u64) -> Option<Message> {
             part = Argument::Term(part.label),
             n = number_text(value, count.div_ceil(8) as usize, part.format)
         )),
-    }
-}
-
-fn with(said: Option<Message>, next: Message) -> Message {
-    match said {
-        Some(said) => message!("{said}, {next}", said = said, next = next),
-        None => next,
     }
 }
 

@@ -252,24 +252,17 @@ fn lost(shown: &Channel, confirmation: &Channel) -> Option<Problem> {
 
 /// How a stale confirmation differs from the one that it should repeat.
 fn stale(job: usize, shown: &Channel, confirmation: &Channel) -> Option<Problem> {
-    let mut said: Option<Message> = None;
-    let mut span = Span::default();
-    for (index, (found, before)) in confirmation.bytes().into_iter().zip(shown.bytes()).enumerate() {
-        if found == before {
-            continue;
-        }
-        let next = message!(
+    let bytes = confirmation.bytes().into_iter().zip(shown.bytes()).enumerate();
+    let changed: Vec<(usize, (u8, u8))> = bytes.filter(|(_, (found, before))| found != before).collect();
+    let span = Span::new(changed.first()?.0, changed.last()?.0 + 1);
+    let said = Message::list(changed.into_iter().map(|(index, (found, before))| {
+        message!(
             "byte {n} is {found} where it was {before}",
             n = index + 1,
             found = hex_value(found.into(), 1),
             before = hex_value(before.into(), 1)
-        );
-        span = Span::new(if said.is_some() { span.from } else { index }, index + 1);
-        said = Some(match said {
-            Some(said) => message!("{said}, {next}", said = said, next = next),
-            None => next,
-        });
-    }
+        )
+    }));
     said.map(|differences| {
         Problem::warning(
             "stale-otherwise",

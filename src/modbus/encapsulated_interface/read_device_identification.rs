@@ -89,15 +89,10 @@ impl Telegram for Response {
 
 impl Body for Response {
     fn meaning(&self, who: Server) -> Message {
-        let mut said: Option<Message> = None;
-        for found in &self.objects {
-            let next = message!("{object} “{text}”", object = object(found.id), text = escaped(&found.text));
-            said = Some(match said {
-                Some(said) => message!("{said}, {next}", said = said, next = next),
-                None => next,
-            });
-        }
-        match said {
+        let said = self.objects.iter().map(|found| {
+            message!("{object} “{text}”", object = object(found.id), text = escaped(&found.text))
+        });
+        match Message::list(said) {
             Some(said) => message!("{who} answers: {objects}", who = who.name(), objects = said),
             None => message!("{who} answers without an object", who = who.name()),
         }
