@@ -1,6 +1,9 @@
 //! What holds for every telegram, whatever its bytes: run over all kinds, in the frame.
 
-use buslens::field::{Direction, Field, Value, leaves, problems};
+mod random;
+mod tiles;
+
+use buslens::field::{Direction, Field, Value, problems};
 use buslens::frame::modbus_ascii::ASCII;
 use buslens::frame::modbus_rtu::RTU;
 use buslens::frame::modbus_serial::{Mode, Serial};
@@ -9,6 +12,8 @@ use buslens::modbus::{DIALECTS, Dialect, KINDS, Kind, OTHER_KINDS, STANDARD};
 use buslens::tool::{Options, Verdict, decode};
 use buslens::walk::{self, Deviations, form, guide};
 use proptest::prelude::*;
+use random::random;
+use tiles::assert_tiled;
 
 /// Every kind, with the dialect that it belongs to.
 type Spoken = (&'static Dialect, &'static Kind);
@@ -70,16 +75,7 @@ fn empty(mode: &'static Mode, (dialect, kind): Spoken) -> Serial {
 /// A valid telegram of `kind`, random by `seed`.
 fn sample(mode: &'static Mode, kind: Spoken, seed: u64) -> Serial {
     let mut serial = empty(mode, kind);
-    let mut state = seed;
-    walk::sample(&mut serial, &mut |most| {
-        // SplitMix64.
-        state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^= z >> 31;
-        if most == u64::MAX { z } else { z % (most + 1) }
-    });
+    walk::sample(&mut serial, &mut random(seed));
     // A broadcast must not read, and 248 to 255 are reserved.
     serial.unit = serial.unit % 247 + 1;
     serial
@@ -94,16 +90,6 @@ fn write(frame: &mut dyn Frame) -> Vec<u8> {
 
 fn codes(fields: &[Field]) -> Vec<&'static str> {
     problems(fields).iter().map(|problem| problem.code).collect()
-}
-
-/// Panics unless the leaves cover 0 to `length` without gap or overlap.
-fn assert_tiled(fields: &[Field], length: usize) {
-    let mut position = 0;
-    for leaf in leaves(fields) {
-        assert_eq!(leaf.span.from, position, "{}", leaf.spec.key);
-        position = leaf.span.to;
-    }
-    assert_eq!(position, length);
 }
 
 proptest! {

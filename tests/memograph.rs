@@ -1,10 +1,13 @@
 //! The commands of the Memograph M RSG45: how they are built, the limits of each, and what holds for
 //! all of them.
 
+mod tiles;
+
 use buslens::device::{Access, Area, Content, PROFILES, Profile, Registers, Settings};
 use buslens::field::{Field, Name, Span, Value, leaves, problems};
 use buslens::walk::{self, Deviations, Telegram, form, read};
 use proptest::prelude::*;
+use tiles::assert_tiled;
 
 #[test]
 fn telegrams_are_built_in_the_words_of_the_device() {
@@ -357,14 +360,4 @@ fn say(access: Access, register: u16, bytes: &[u8]) -> (Vec<String>, Vec<&'stati
 
 fn hex(text: &str) -> Vec<u8> {
     text.split(' ').map(|byte| u8::from_str_radix(byte, 16).expect(byte)).collect()
-}
-
-/// Panics unless the leaves cover 0 to `length` without gap or overlap.
-fn assert_tiled(fields: &[Field], length: usize) {
-    let mut position = 0;
-    for leaf in leaves(fields) {
-        assert_eq!(leaf.span.from, position, "{}", leaf.spec.key);
-        position = leaf.span.to;
-    }
-    assert_eq!(position, length);
 }

@@ -1,9 +1,12 @@
 //! PROFIBUS-DP: what holds for every telegram whatever its bytes, and what the manual prints.
 
+mod random;
+mod tiles;
+
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use buslens::field::{Direction, Field, Numbering, Severity, leaves, problems};
+use buslens::field::{Direction, Field, Numbering, Severity, problems};
 use buslens::frame::profibus_fdl::{Fdl, SC, SD1, SD2, SD3, SD4};
 use buslens::profibus::client::{Busy, Client, Job, Outcome};
 use buslens::profibus::jobs::{Jobs, State, Step};
@@ -13,6 +16,8 @@ use buslens::profibus::{
 use buslens::walk::form::{Content, Entry, Form};
 use buslens::walk::{self, Deviations, form, guide};
 use proptest::prelude::*;
+use random::random;
+use tiles::assert_tiled;
 
 fn kinds() -> impl Iterator<Item = &'static Kind> {
     KINDS.iter().chain(OTHER_KINDS).copied()
@@ -68,19 +73,6 @@ fn frame_bytes() -> impl Strategy<Value = Vec<u8>> {
     })
 }
 
-/// The random numbers that a sampler draws.
-fn random(mut state: u64) -> impl FnMut(u64) -> u64 {
-    move |most| {
-        // SplitMix64.
-        state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^= z >> 31;
-        if most == u64::MAX { z } else { z % (most + 1) }
-    }
-}
-
 const CONFIGURATIONS: [(&[u8], Layout); 7] = [
     (&[0xB7, 0xA3, 0x93], layout(true, 4, 4)),
     (&[0xB7, 0xA1, 0xA1, 0x93], layout(true, 4, 4)),
@@ -126,16 +118,6 @@ fn shortest(kind: &'static Kind, settings: &Settings) -> usize {
 
 fn codes(fields: &[Field]) -> Vec<&'static str> {
     problems(fields).iter().map(|problem| problem.code).collect()
-}
-
-/// Panics unless the leaves cover 0 to `length` without gap or overlap.
-fn assert_tiled(fields: &[Field], length: usize) {
-    let mut position = 0;
-    for leaf in leaves(fields) {
-        assert_eq!(leaf.span.from, position, "{}", leaf.spec.key);
-        position = leaf.span.to;
-    }
-    assert_eq!(position, length);
 }
 
 /// Panics if two entries of a form have the same path.
