@@ -121,11 +121,12 @@ impl Field {
 
     /// The parts of a number whose bits each say something, with their values.
     pub fn parts(&self) -> impl Iterator<Item = (&'static Bits, u64)> {
-        let number = match self.value {
-            Value::Number { raw, .. } => Some(raw),
-            _ => None,
+        let (raw, bits) = match self.value {
+            Value::Number { raw, .. } => (raw, self.spec.bits),
+            Value::Selector { raw, chosen, .. } => (raw, chosen.bits),
+            _ => (0, &[] as &'static [Bits]),
         };
-        number.into_iter().flat_map(|raw| self.spec.bits.iter().map(move |part| (part, part.of(raw))))
+        bits.iter().map(move |part| (part, part.of(raw)))
     }
 
     /// Moves the field and all below it: what was read by itself takes its place in a telegram.

@@ -95,7 +95,11 @@ impl Value {
                 None if spec.format == Format::Switches => Some(switches(raw, number)),
                 None => shown_otherwise(raw, width, spec.format),
             },
-            Self::Selector { chosen, .. } => Some(Message::term(chosen.label)),
+            Self::Selector { raw, chosen, .. } => Some(match chosen.name(raw) {
+                Some(name) => Message::term(name.label),
+                None if !chosen.bits.is_empty() => bits(raw, chosen),
+                None => Message::term(chosen.label),
+            }),
             Self::Check(check) if check.ok() => Some(message!("matches the bytes before it")),
             Self::Check(check) => {
                 Some(message!("does not match: computed {computed}", computed = check.computed_bytes()))

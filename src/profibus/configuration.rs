@@ -47,7 +47,13 @@ impl Telegram for Configuration {
         let mut modules = Modules::default();
         w.list(&MODULES, &mut self.bytes, None, Some(1), |w, byte| {
             let spec = modules.next();
-            w.u8(spec, byte)?;
+            match std::ptr::eq(spec, &MODULE) {
+                true => w.choose(spec, 1, byte, &|raw| match SIDES.of(raw) {
+                    SPECIAL => &SPECIAL_FORMAT,
+                    _ => &DATA,
+                })?,
+                false => w.u8(spec, byte)?,
+            }
             modules.take(*byte);
             if keb {
                 modules.check(w, *byte, spec);
@@ -235,20 +241,31 @@ static MODULES: Spec = Spec::new("modules", "Modules")
 static MODULE: Spec = Spec::new("module", "Configuration byte")
     .short("Module")
     .role(Role::Count)
+    .format(Format::Hex)
     .note(
-        "How much data a module carries, and to which side, seen from the master. In the special format bits \
-         0 to 3 count the bytes of the maker that follow, and bits 6 and 7 say whether a length of inputs \
-         and of outputs comes before them.",
+        "How much data a module carries, and to which side, seen from the master. Bits 4 and 5 both 0 mark \
+         the special format.",
     )
-    .source(SOURCE)
-    .names(&[
-        Name { value: PARAMETER_CHANNEL as u64, label: "8 bytes in and out: parameter channel", note: "" },
-        Name { value: 0x00, label: "empty module", note: "" },
-        Name { value: 0x40, label: "inputs, length follows", note: "" },
-        Name { value: 0x80, label: "outputs, length follows", note: "" },
-        Name { value: 0xC0, label: "outputs and inputs, lengths follow", note: "" },
-    ])
+    .source(SOURCE);
+
+/// What the byte of a module says.
+static DATA: Spec = Spec::new("module_data", "Module")
+    .names(&[Name {
+        value: PARAMETER_CHANNEL as u64,
+        label: "8 bytes in and out: parameter channel",
+        note: "",
+    }])
     .bits(&[LENGTH, SIDES, WORDS, CONSISTENT]);
+
+/// What it says in the special format.
+static SPECIAL_FORMAT: Spec = Spec::new("special_format", "Module in the special format")
+    .names(&[Name { value: 0x00, label: "empty module", note: "" }])
+    .bits(&[
+        SIDES,
+        Bits::flag(6, "input_length", "a length of inputs follows"),
+        Bits::flag(7, "output_length", "a length of outputs follows"),
+        Bits::part(0, 4, "makers_bytes", "bytes of the maker:"),
+    ]);
 
 static OUTPUT_LENGTH: Spec =
     Spec::new("output_length", "Length of outputs").short("Outputs").bits(LENGTH_BYTE);
