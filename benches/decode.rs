@@ -40,5 +40,15 @@ fn many_lines(c: &mut Criterion) {
     });
 }
 
-criterion_group!(benches, one_telegram, many_lines);
+fn a_failed_check(c: &mut Criterion) {
+    let mut bytes = longest_response();
+    bytes[100] ^= 0x55;
+    let report = decode(&hex(&bytes), Options::default());
+    assert!(!report.explanations(0).is_empty());
+    c.bench_function("255 bytes with a changed one, explained", |b| {
+        b.iter(|| report.explanations(black_box(0)))
+    });
+}
+
+criterion_group!(benches, one_telegram, many_lines, a_failed_check);
 criterion_main!(benches);

@@ -2,11 +2,13 @@
 //! are of, who speaks, and which response answers which request.
 
 mod guess;
+mod hypothesis;
 mod pair;
 mod protocol;
 mod turns;
 
 pub use guess::{Certainty, Guess, direction};
+pub use hypothesis::{Cause, Hypothesis, hypotheses};
 pub use pair::Pairing;
 pub use protocol::{Candidate, Choice, protocols};
 pub use turns::{leaning, told, turns};

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Certainty, Detail, Report, Telegram, Verdict};
+use super::{Certainty, Detail, Explanation, Report, Telegram, Verdict};
 use crate::device::Block;
 use crate::field::{Field, Message, hex};
 use crate::profibus;
@@ -46,6 +46,9 @@ pub struct Row {
     pub pair: Option<usize>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub problems: Vec<Problem>,
+    /// What may have happened where the check failed, best first.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub hypotheses: Vec<Hypothesis>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fields: Option<Vec<Node>>,
 }
@@ -128,6 +131,14 @@ pub struct Problem {
     pub span: Option<[usize; 2]>,
 }
 
+#[derive(Debug, Serialize)]
+pub struct Hypothesis {
+    pub code: &'static str,
+    pub text: String,
+    pub bytes: String,
+    pub odds: String,
+}
+
 /// A field with those within it.
 #[derive(Debug, Serialize)]
 pub struct Node {
@@ -167,7 +178,10 @@ pub fn lines(report: &Report, fields: bool) -> serde_json::Result<String> {
     let mut text = String::new();
     for (index, telegram) in report.telegrams.iter().enumerate() {
         if let Some(detail) = report.detail(index) {
-            text += &serde_json::to_string(&row(index, telegram, detail, fields))?;
+            let mut row = row(index, telegram, detail, fields);
+            let explained = report.explanations(index).into_iter();
+            row.hypotheses = explained.map(|one| hypothesis(one, &telegram.line.bytes)).collect();
+            text += &serde_json::to_string(&row)?;
             text.push('\n');
         }
     }
@@ -214,11 +228,22 @@ fn row(index: usize, telegram: &Telegram, detail: Detail, fields: bool) -> Row {
         meaning: detail.meaning().sentence() + ".",
         pair: telegram.answers.or(telegram.answered_by).map(|index| index + 1),
         problems: problems.chain(remarks).collect(),
+        hypotheses: Vec::new(),
         fields: fields.then(|| detail.fields.iter().map(node).collect()),
         channel: detail.channel.as_ref().map(channel),
         job: detail.step.as_ref().map(|step| Job { number: step.job, state: step.state.key() }),
         values: detail.values.iter().map(|value| raw(*value, detail.coils)).collect(),
         device: detail.device.blocks.iter().map(known).collect(),
+    }
+}
+
+fn hypothesis(explanation: Explanation, found: &[u8]) -> Hypothesis {
+    let hypothesis = explanation.hypothesis;
+    Hypothesis {
+        code: hypothesis.cause.key(),
+        text: hypothesis.text(found).sentence(),
+        odds: hypothesis.odds().to_string(),
+        bytes: hex(&hypothesis.bytes),
     }
 }
 

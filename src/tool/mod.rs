@@ -5,6 +5,7 @@ pub mod copy;
 mod decode;
 mod detail;
 pub mod examples;
+mod explain;
 #[cfg(feature = "json")]
 pub mod json;
 mod offers;
@@ -20,5 +21,6 @@ pub use crate::walk::guide::{Row, Size};
 pub use build::build;
 pub use decode::{Options, Report, Settings, Summary, Telegram, decode};
 pub use detail::Detail;
+pub use explain::Explanation;
 pub use offers::{Offer, offers};
 pub use views::{Kind, View, views};
