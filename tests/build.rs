@@ -5,7 +5,7 @@ use buslens::device::{Access, Draft, Profile};
 use buslens::field::{Direction, hex};
 use buslens::frame::{Cargo, Settings};
 use buslens::modbus::{KINDS, STANDARD, exceptions};
-use buslens::tool::{Options, PROFILES, PROTOCOLS, build, decode};
+use buslens::tool::{Options, PROFILES, PROTOCOLS, build, decode, replies};
 use buslens::walk::form::{self, Content, Entry};
 use buslens::walk::{Deviations, read, write};
 
@@ -169,7 +169,7 @@ fn every_request_has_its_responses() {
     for (kind, protocol) in requests.flat_map(|kind| PROTOCOLS.iter().map(move |protocol| (kind, protocol))) {
         let Some(mut request) = (protocol.carry)(5, Cargo::Modbus(kind.pdu(&STANDARD))) else { continue };
         let asked = hex(&write(request.as_mut(), &Deviations::default()));
-        let replies = request.replies();
+        let replies = replies(request.as_mut());
         assert_eq!(replies.len(), 1 + exceptions().len(), "{}", kind.spec.key);
         for mut reply in replies {
             let answer = hex(&write(reply.as_mut(), &Deviations::default()));
@@ -190,7 +190,7 @@ fn a_response_has_what_was_asked_for() {
         let bytes: Vec<u8> = request.split(' ').map(|byte| u8::from_str_radix(byte, 16).unwrap()).collect();
         let mut frame = (PROTOCOLS[0].expect)(&bytes, Direction::Request, &Settings::default());
         read(frame.as_mut(), &bytes);
-        let mut reply = frame.replies().into_iter().next().expect("an answer");
+        let mut reply = replies(frame.as_mut()).into_iter().next().expect("an answer");
         hex(&write(reply.as_mut(), &Deviations::default()))
     };
     assert_eq!(respond("01 03 00 C8 00 03 84 35")[..26], *"01 03 06 00 00 00 00 00 00");

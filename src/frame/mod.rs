@@ -11,7 +11,7 @@ mod profibus_bare;
 pub mod profibus_fdl;
 
 use crate::field::{Direction, Message, Spec};
-use crate::modbus::{Dialect, Pdu, STANDARD, Server, exceptions};
+use crate::modbus::{Dialect, Pdu, STANDARD, Server};
 use crate::profibus::{self, Body, Kind};
 use crate::walk::Telegram;
 
@@ -124,22 +124,15 @@ pub trait Frame: Telegram {
     /// Takes from the request what a response does not repeat, before the response is read.
     fn answer(&mut self, request: &Content<'_>);
 
-    /// The responses that can follow a request: that of a healthy server or slave first, then those
-    /// that refuse it. None to a response, or where nothing is known of them.
-    fn replies(&mut self) -> Vec<Box<dyn Frame>> {
-        Vec::new()
+    /// Its PDU, if it carries one.
+    fn pdu(&mut self) -> Option<&mut Pdu> {
+        None
     }
-}
 
-/// The PDUs that can answer a request.
-fn replies(request: &mut Pdu) -> Vec<Pdu> {
-    if request.direction == Direction::Response {
-        return Vec::new();
+    /// A frame with the same address around another PDU, such as the response.
+    fn around(&self, _pdu: Pdu) -> Option<Box<dyn Frame>> {
+        None
     }
-    let refusals = exceptions().iter().map(|code| request.refusal(code.value as u8));
-    let mut replies: Vec<Pdu> = refusals.collect();
-    replies.insert(0, request.reply());
-    replies
 }
 
 /// What a frame carries.

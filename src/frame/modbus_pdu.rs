@@ -4,7 +4,7 @@
 //! Source: Modbus application protocol V1.1b3, section 4.1.
 
 use super::modbus_serial::{PduFit, answer, pdu_fit};
-use super::{Cargo, Content, Fit, Frame, Protocol, Speaker, Verdict, replies};
+use super::{Cargo, Content, Fit, Frame, Protocol, Speaker, Verdict};
 use crate::field::Message;
 use crate::message;
 use crate::modbus::{EXCEPTION, Pdu, Server};
@@ -59,8 +59,11 @@ impl Frame for Bare {
         answer(&mut self.pdu, request);
     }
 
-    fn replies(&mut self) -> Vec<Box<dyn Frame>> {
-        let pdus = replies(&mut self.pdu).into_iter();
-        pdus.map(|pdu| -> Box<dyn Frame> { Box::new(Self { pdu }) }).collect()
+    fn pdu(&mut self) -> Option<&mut Pdu> {
+        Some(&mut self.pdu)
+    }
+
+    fn around(&self, pdu: Pdu) -> Option<Box<dyn Frame>> {
+        Some(Box::new(Self { pdu }))
     }
 }

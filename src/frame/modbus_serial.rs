@@ -3,7 +3,7 @@
 //!
 //! Source: Modbus over serial line V1.02, sections 2.2 and 2.5.
 
-use super::{Content, Fit, Frame, Verdict, replies};
+use super::{Content, Fit, Frame, Verdict};
 use crate::field::{Direction, Message, Name, Role, Severity, Span, Spec};
 use crate::message;
 use crate::modbus::{Dialect, EXCEPTION, KINDS, LONGEST_PDU, Pdu, Server};
@@ -104,13 +104,12 @@ impl Frame for Serial {
         answer(&mut self.pdu, request);
     }
 
-    fn replies(&mut self) -> Vec<Box<dyn Frame>> {
-        if self.unit == BROADCAST {
-            return Vec::new();
-        }
-        let pdus = replies(&mut self.pdu).into_iter();
-        pdus.map(|pdu| -> Box<dyn Frame> { Box::new(Self { mode: self.mode, unit: self.unit, pdu }) })
-            .collect()
+    fn pdu(&mut self) -> Option<&mut Pdu> {
+        Some(&mut self.pdu)
+    }
+
+    fn around(&self, pdu: Pdu) -> Option<Box<dyn Frame>> {
+        Some(Box::new(Self { mode: self.mode, unit: self.unit, pdu }))
     }
 }
 

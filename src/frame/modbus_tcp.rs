@@ -8,7 +8,7 @@
 
 use super::modbus_rtu::RTU;
 use super::modbus_serial::{PduFit, answer, check_length, pdu_fit};
-use super::{Cargo, Content, Fit, Frame, Protocol, Settings, Speaker, Verdict, replies};
+use super::{Cargo, Content, Fit, Frame, Protocol, Settings, Speaker, Verdict};
 use crate::field::{Direction, Message, Name, Role, Severity, Spec};
 use crate::message;
 use crate::modbus::{Dialect, LONGEST_PDU, Pdu, Server};
@@ -179,12 +179,12 @@ impl Frame for Tcp {
         answer(&mut self.pdu, request);
     }
 
-    fn replies(&mut self) -> Vec<Box<dyn Frame>> {
-        let pdus = replies(&mut self.pdu).into_iter();
-        pdus.map(|pdu| -> Box<dyn Frame> {
-            Box::new(Self { transaction: self.transaction, protocol: self.protocol, unit: self.unit, pdu })
-        })
-        .collect()
+    fn pdu(&mut self) -> Option<&mut Pdu> {
+        Some(&mut self.pdu)
+    }
+
+    fn around(&self, pdu: Pdu) -> Option<Box<dyn Frame>> {
+        Some(Box::new(Self { transaction: self.transaction, protocol: self.protocol, unit: self.unit, pdu }))
     }
 }
 

@@ -1,10 +1,10 @@
 //! Telegrams made of what is to be asked of a device.
 
 use crate::device::{Access, Asked, Draft};
-use crate::field::{Message, Order};
-use crate::frame::{Cargo, Frame, Protocol};
+use crate::field::{Direction, Message, Order};
+use crate::frame::{Cargo, Content, Frame, Protocol};
 use crate::message;
-use crate::modbus::Pdu;
+use crate::modbus::{Pdu, Server, exceptions};
 use crate::profibus::{Channel, Service, Settings, parameter_channel};
 
 /// The request that `draft` is, for a unit.
@@ -26,6 +26,20 @@ pub fn build(draft: &mut Draft, unit: u8, protocol: &Protocol) -> Result<Box<dyn
     (protocol.carry)(unit, cargo).ok_or_else(|| {
         message!("{protocol} does not carry such a telegram", protocol = protocol.label.to_owned())
     })
+}
+
+/// The responses that can follow a request over Modbus: that of a healthy server first, with zeros for
+/// what it would read, then those that refuse it. None to a broadcast or to a response.
+pub fn replies(request: &mut dyn Frame) -> Vec<Box<dyn Frame>> {
+    if matches!(request.content(), Content::Modbus { server: Server::All, .. }) {
+        return Vec::new();
+    }
+    let Some(pdu) = request.pdu().filter(|pdu| pdu.direction == Direction::Request) else {
+        return Vec::new();
+    };
+    let mut replies = vec![pdu.reply()];
+    replies.extend(exceptions().iter().map(|code| pdu.refusal(code.value as u8)));
+    replies.into_iter().filter_map(|reply| request.around(reply)).collect()
 }
 
 fn registers(asked: &Asked) -> Result<Cargo, Message> {

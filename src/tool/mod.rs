@@ -18,7 +18,7 @@ pub use crate::dialogue::Certainty;
 pub use crate::frame::{PROTOCOLS, Protocol, Verdict};
 pub use crate::text::{Remark, Style};
 pub use crate::walk::guide::{Row, Size};
-pub use build::build;
+pub use build::{build, replies};
 pub use decode::{Options, Report, Settings, Summary, Telegram, decode};
 pub use detail::Detail;
 pub use explain::Explanation;
