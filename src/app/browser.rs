@@ -5,8 +5,10 @@ use std::cell::RefCell;
 use gloo_timers::callback::Timeout;
 use leptos::prelude::*;
 use wasm_bindgen::JsCast;
+use wasm_bindgen::closure::Closure;
 use web_sys::{
     Element, Event, EventInit, FocusEvent, HtmlDocument, HtmlElement, HtmlSelectElement, HtmlTextAreaElement,
+    KeyboardEvent,
 };
 
 use crate::field::Span;
@@ -26,6 +28,27 @@ pub fn tell_of_panics() {
         });
         drop(told);
     }));
+}
+
+/// Calls `hear` with every event of the page that it reacts to.
+pub fn listen(hear: impl Fn(&Event) + 'static) {
+    let hear = Closure::<dyn Fn(Event)>::new(move |event| hear(&event));
+    let hear = hear.into_js_value().unchecked_into();
+    for kind in [
+        "change",
+        "click",
+        "focusin",
+        "focusout",
+        "input",
+        "keydown",
+        "keyup",
+        "pointerleave",
+        "pointerover",
+        "scroll",
+    ] {
+        // Not all of them bubble, but all come down from the document.
+        let _ = document().add_event_listener_with_callback_and_bool(kind, &hear, true);
+    }
 }
 
 /// Keeps what belongs to the element `id` in the browser, where the browser allows that.
@@ -117,6 +140,17 @@ pub fn announce(text: String) {
     WAITING.with_borrow_mut(|waiting| *waiting = Some(Timeout::new(PAUSE, tell)));
 }
 
+/// The id of the element that an event is of.
+pub fn id(event: &Event) -> String {
+    let element = event.target().and_then(|target| target.dyn_into::<Element>().ok());
+    element.map_or(String::new(), |element| element.id())
+}
+
+/// The key that was pressed: `ArrowDown`.
+pub fn key(event: &Event) -> String {
+    event.dyn_ref::<KeyboardEvent>().map_or(String::new(), KeyboardEvent::key)
+}
+
 /// The value of the list or field that an event is of.
 pub fn value(event: &Event) -> String {
     let list = event.target().and_then(|target| target.dyn_into::<HtmlSelectElement>().ok());
@@ -157,8 +191,9 @@ pub fn closest(event: &Event, selector: &str) -> Option<Element> {
 }
 
 /// Whether the focus only moves within the element `selector` around it.
-pub fn stays_within(event: &FocusEvent, selector: &str) -> bool {
-    let to = event.related_target().and_then(|to| to.dyn_into::<Element>().ok());
+pub fn stays_within(event: &Event, selector: &str) -> bool {
+    let to = event.dyn_ref::<FocusEvent>().and_then(FocusEvent::related_target);
+    let to = to.and_then(|to| to.dyn_into::<Element>().ok());
     let around = |element: &Element| element.closest(selector).ok().flatten();
     to.is_some_and(|to| around(&to) == closest(event, selector))
 }

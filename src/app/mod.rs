@@ -15,15 +15,19 @@ use state::State;
 /// Puts the page into the document's body.
 pub fn start() {
     browser::tell_of_panics();
-    mount_to_body(Page);
+    mount_to_body(|| {
+        let state = State::new();
+        browser::listen(move |event| components::hear(state, event));
+        view! { <Page state /> }
+    });
     browser::bring_back();
 }
 
 #[component]
-fn Page() -> impl IntoView {
+fn Page(state: State) -> impl IntoView {
     view! {
         <a class="skip" href="#input">"Skip to the input"</a>
         <components::header::Header />
-        <pages::decode::Decode state=State::new() />
+        <pages::decode::Decode state />
     }
 }

@@ -14,6 +14,8 @@ pub struct State {
     pub decoded: RwSignal<Decoded>,
     /// What is pointed at.
     pub light: RwSignal<Light>,
+    /// How far the list of telegrams is scrolled, in pixels.
+    pub scrolled: RwSignal<usize>,
 }
 
 /// The input and what it says.
@@ -90,7 +92,7 @@ impl Decoded {
 
 impl State {
     pub fn new() -> Self {
-        Self { decoded: RwSignal::default(), light: RwSignal::default() }
+        Self { decoded: RwSignal::default(), light: RwSignal::default(), scrolled: RwSignal::default() }
     }
 
     /// The input was edited; the telegram at the cursor is shown.

@@ -2,10 +2,10 @@
 
 use leptos::prelude::*;
 use maud::{Markup, html};
-use web_sys::{Element, Event, KeyboardEvent};
+use web_sys::{Element, Event};
 
 use super::{check, examples, fields, layout, strip, views};
-use crate::app::browser;
+use crate::app::browser::{self, DETAIL};
 use crate::app::state::{Decoded, Shown, State};
 use crate::field::{Message, Severity, hex};
 use crate::tool::{Certainty, PROTOCOLS};
@@ -32,20 +32,7 @@ pub fn Telegram(state: State) -> impl IntoView {
         state.decoded.with(views).map(Markup::into_string).unwrap_or_default()
     };
     view! {
-        <section
-            id=browser::DETAIL
-            class="card detail"
-            aria-label="Telegram"
-            on:pointerover=move |event| state.point(browser::span(&event))
-            on:pointerleave=move |_| state.point(None)
-            on:click=move |event| click(state, &event)
-            on:focusin=move |event| {
-                if browser::closest(&event, STOP).is_some() {
-                    state.choose(browser::span(&event));
-                }
-            }
-            on:keydown=move |event| go(state, &event)
-        >
+        <section id=DETAIL class="card detail" aria-label="Telegram">
             <div inner_html=reading></div>
             <details
                 id="views"
@@ -67,13 +54,23 @@ fn has_registers(decoded: &Decoded) -> bool {
     decoded.shown.as_ref().is_some_and(|shown| shown.detail.registers.is_some())
 }
 
+pub fn hear(state: State, kind: &str, event: &Event) {
+    let inside = browser::closest(event, "#detail");
+    match kind {
+        "pointerleave" if browser::id(event) == DETAIL => state.point(None),
+        _ if inside.is_none() => {}
+        "pointerover" => state.point(browser::span(event)),
+        "click" => click(state, event),
+        "focusin" if browser::closest(event, STOP).is_some() => state.choose(browser::span(event)),
+        "keydown" => go(state, event),
+        _ => {}
+    }
+}
+
 /// Cells and rows that the arrow keys lead to.
 const STOP: &str = "[data-stop]";
 
 fn click(state: State, event: &Event) {
-    if examples::load(state, event) {
-        return;
-    }
     if let Some(index) = browser::attribute(event, "data-select").and_then(|index| index.parse().ok()) {
         state.select(index);
     } else if let Some(key) = browser::attribute(event, "data-protocol") {
@@ -89,7 +86,7 @@ fn click(state: State, event: &Event) {
 }
 
 /// Arrow keys go from cell to cell and from row to row; left and right close and open a group.
-fn go(state: State, event: &KeyboardEvent) {
+fn go(state: State, event: &Event) {
     let Some(stop) = browser::closest(event, STOP) else { return };
     let Some(all) = stop.closest(".strip, .fields").ok().flatten().map(|root| browser::all(&root, STOP))
     else {
@@ -100,9 +97,10 @@ fn go(state: State, event: &KeyboardEvent) {
     let last = stops.len().saturating_sub(1);
     let at = stops.iter().position(|other| *other == stop).unwrap_or(0);
     let in_table = stop.class_list().contains("field");
-    let to = match event.key().as_str() {
+    let key = browser::key(event);
+    let to = match key.as_str() {
         "ArrowLeft" | "ArrowRight" if in_table => {
-            open_or_close(&stop, Some(event.key() == "ArrowRight"));
+            open_or_close(&stop, Some(key == "ArrowRight"));
             at
         }
         "ArrowRight" | "ArrowDown" => (at + 1).min(last),

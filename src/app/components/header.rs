@@ -6,19 +6,23 @@ use web_sys::Event;
 
 use crate::app::browser;
 
-/// The boot script reads the same setting, so that the page comes up in the right colours.
+/// The id of the list of themes. The boot script reads the same setting, so that the page comes up in
+/// the right colours.
 const THEME: &str = "theme";
 
 #[component]
 pub fn Header() -> impl IntoView {
-    let choose = |event: Event| {
-        let theme = browser::value(&event);
+    view! { <header class="top" inner_html=content()></header> }
+}
+
+pub fn hear(kind: &str, event: &Event) {
+    if kind == "change" && browser::id(event) == THEME {
+        let theme = browser::value(event);
         if let Some(root) = document().document_element() {
             let _ = root.set_attribute("data-theme", &theme);
         }
         browser::remember(THEME, &theme);
-    };
-    view! { <header class="top" inner_html=content() on:change=choose></header> }
+    }
 }
 
 fn content() -> String {
@@ -28,7 +32,7 @@ fn content() -> String {
         p.promise { "Reads field-bus telegrams. Nothing leaves this page." }
         label.theme {
             span { "Theme" }
-            select id="theme" aria-label="Theme" {
+            select id=(THEME) aria-label="Theme" {
                 @for (key, label) in [("", "System"), ("light", "Light"), ("dark", "Dark")] {
                     option value=(key) selected[key == chosen] { (label) }
                 }

@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 use maud::{Markup, html};
-use web_sys::{Element, HtmlTextAreaElement};
+use web_sys::{Element, Event, HtmlTextAreaElement};
 
 use super::{marks, settings};
 use crate::app::browser::{self, INPUT};
@@ -17,12 +17,6 @@ pub fn Input(state: State) -> impl IntoView {
         state.decoded.with(|decoded| marks::marks(decoded, lit).into_string())
     };
     let reading = move || state.decoded.with(|decoded| reading(&decoded.text, &decoded.report).into_string());
-    let follow_cursor = move || {
-        if let Some(area) = browser::element(INPUT) {
-            let cursor = state.decoded.with_untracked(|decoded| cursor(&area, &decoded.text));
-            state.follow_cursor(cursor);
-        }
-    };
     view! {
         <section class="card input" aria-label="Input">
             <label for=INPUT class="title">"Paste telegrams as hex, one in a line"</label>
@@ -35,30 +29,39 @@ pub fn Input(state: State) -> impl IntoView {
                     autocapitalize="off"
                     rows="6"
                     placeholder="01 03 00 C8 00 03 84 35"
-                    on:input:target=move |event| {
-                        let area = event.target();
-                        let text = area.value();
-                        let cursor = cursor(&area, &text);
-                        state.type_text(text, cursor);
-                        scroll(&area);
-                    }
-                    on:click=move |_| follow_cursor()
-                    on:keyup=move |_| follow_cursor()
-                    on:scroll:target=move |event| scroll(&event.target())
                 ></textarea>
             </div>
-            <settings::Settings state />
-            <div
-                class="reading"
-                inner_html=reading
-                on:click=move |event| {
-                    if let Some(span) = browser::span(&event) {
-                        state.decoded.with_untracked(|decoded| mark(&decoded.text, span));
-                    }
-                }
-            ></div>
+            <settings::Settings />
+            <div class="reading" inner_html=reading></div>
             <p id="status" role="status" class="unseen"></p>
         </section>
+    }
+}
+
+pub fn hear(state: State, kind: &str, event: &Event) {
+    if kind == "click"
+        && browser::closest(event, "button.place").is_some()
+        && let Some(span) = browser::span(event)
+    {
+        state.decoded.with_untracked(|decoded| mark(&decoded.text, span));
+    }
+    let Some(area) = browser::element::<HtmlTextAreaElement>(INPUT) else { return };
+    if browser::id(event) != INPUT {
+        return;
+    }
+    match kind {
+        "input" => {
+            let text = area.value();
+            let cursor = cursor(&area, &text);
+            state.type_text(text, cursor);
+            scroll(&area);
+        }
+        "click" | "keyup" => {
+            let cursor = state.decoded.with_untracked(|decoded| cursor(&area, &decoded.text));
+            state.follow_cursor(cursor);
+        }
+        "scroll" => scroll(&area),
+        _ => {}
     }
 }
 

@@ -2,6 +2,7 @@
 
 use leptos::prelude::*;
 use maud::{Markup, html};
+use web_sys::Event;
 
 use crate::app::browser::{self, LIST};
 use crate::app::state::{Decoded, State};
@@ -15,26 +16,10 @@ const SIGHT: usize = 10;
 
 #[component]
 pub fn Telegrams(state: State) -> impl IntoView {
-    let scrolled = RwSignal::new(0);
     let total = move || state.decoded.with(|decoded| decoded.report.telegrams.len());
     let current = move || state.decoded.with(Decoded::index);
-    let go = move |event: web_sys::KeyboardEvent| {
-        let last = untrack(total).saturating_sub(1);
-        let at = untrack(current);
-        let to = match event.key().as_str() {
-            "ArrowDown" => at + 1,
-            "ArrowUp" => at.saturating_sub(1),
-            "PageDown" => at + SIGHT,
-            "PageUp" => at.saturating_sub(SIGHT),
-            "Home" => 0,
-            "End" => last,
-            _ => return,
-        };
-        event.prevent_default();
-        state.select(to.min(last));
-    };
     let rows = move || {
-        let scrolled = scrolled.get();
+        let scrolled = state.scrolled.get();
         state.decoded.with(|decoded| rows(&decoded.report, scrolled / ROW, decoded.index()).into_string())
     };
     view! {
@@ -47,17 +32,40 @@ pub fn Telegrams(state: State) -> impl IntoView {
                 tabindex="0"
                 aria-labelledby="telegrams"
                 aria-activedescendant=move || format!("telegram-{}", current())
-                on:keydown=go
-                on:click=move |event| {
-                    if let Some(index) = browser::attribute(&event, "data-telegram").and_then(|at| at.parse().ok()) {
-                        state.select(index);
-                    }
-                }
-                on:scroll:target=move |event| scrolled.set(event.target().scroll_top().max(0) as usize)
                 inner_html=rows
             ></div>
         </section>
     }
+}
+
+pub fn hear(state: State, kind: &str, event: &Event) {
+    let Some(list) = browser::closest(event, "#list") else { return };
+    match kind {
+        "click" => {
+            if let Some(index) = browser::attribute(event, "data-telegram").and_then(|at| at.parse().ok()) {
+                state.select(index);
+            }
+        }
+        "keydown" => go(state, event),
+        "scroll" => state.scrolled.set(list.scroll_top().max(0) as usize),
+        _ => {}
+    }
+}
+
+fn go(state: State, event: &Event) {
+    let (at, of) = state.decoded.with_untracked(|decoded| (decoded.index(), decoded.report.telegrams.len()));
+    let last = of.saturating_sub(1);
+    let to = match browser::key(event).as_str() {
+        "ArrowDown" => at + 1,
+        "ArrowUp" => at.saturating_sub(1),
+        "PageDown" => at + SIGHT,
+        "PageUp" => at.saturating_sub(SIGHT),
+        "Home" => 0,
+        "End" => last,
+        _ => return,
+    };
+    event.prevent_default();
+    state.select(to.min(last));
 }
 
 fn head() -> Markup {

@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 use leptos::wasm_bindgen::JsCast;
 use maud::{Markup, html};
-use web_sys::{Event, HtmlDetailsElement, KeyboardEvent};
+use web_sys::{Event, HtmlDetailsElement};
 
 use super::examples;
 use crate::app::browser::{self, DEVICE, DIRECTION, PROTOCOL};
@@ -12,30 +12,17 @@ use crate::field::Direction;
 use crate::tool::{PROFILES, PROTOCOLS};
 
 #[component]
-pub fn Settings(state: State) -> impl IntoView {
-    view! {
-        <div
-            class="settings"
-            inner_html=content().into_string()
-            on:change=move |event| choose(state, &event)
-            on:click=move |event| {
-                if examples::load(state, &event) {
-                    close_menu(&event);
-                } else if browser::attribute(&event, "data-clear").is_some() {
-                    state.load("");
-                }
-            }
-            on:keydown=move |event: KeyboardEvent| {
-                if event.key() == "Escape" {
-                    close_menu(&event);
-                }
-            }
-            on:focusout=move |event| {
-                if !browser::stays_within(&event, MENU) {
-                    close_menu(&event);
-                }
-            }
-        ></div>
+pub fn Settings() -> impl IntoView {
+    view! { <div class="settings" inner_html=content().into_string()></div> }
+}
+
+pub fn hear(state: State, kind: &str, event: &Event) {
+    match kind {
+        "change" => choose(state, event),
+        "click" if browser::attribute(event, "data-clear").is_some() => state.load(""),
+        "keydown" if browser::key(event) == "Escape" => close_menu(event),
+        "focusout" if !browser::stays_within(event, MENU) => close_menu(event),
+        _ => {}
     }
 }
 
@@ -77,10 +64,14 @@ fn list(
 }
 
 fn choose(state: State, event: &Event) {
+    let list = browser::id(event);
+    if ![PROTOCOL, DEVICE, DIRECTION].contains(&list.as_str()) {
+        return;
+    }
     let key = browser::value(event);
-    state.read_as(|options| match browser::attribute(event, "id").as_deref() {
-        Some(PROTOCOL) => options.protocol = PROTOCOLS.iter().copied().find(|it| it.key == key),
-        Some(DEVICE) => options.device = PROFILES.iter().copied().find(|it| it.key == key),
+    state.read_as(|options| match list.as_str() {
+        PROTOCOL => options.protocol = PROTOCOLS.iter().copied().find(|it| it.key == key),
+        DEVICE => options.device = PROFILES.iter().copied().find(|it| it.key == key),
         _ => {
             let known = [Direction::Request, Direction::Response];
             options.direction = known.into_iter().find(|it| it.key() == key);
@@ -89,7 +80,7 @@ fn choose(state: State, event: &Event) {
 }
 
 /// Closes the menu that the event is in; who used the keyboard is back at its button.
-fn close_menu(event: &Event) {
+pub fn close_menu(event: &Event) {
     if let Some(menu) = browser::closest(event, MENU) {
         if let Some(button) = menu.first_element_child().filter(|_| event.type_() == "keydown") {
             browser::focus(&button);
