@@ -4,6 +4,7 @@ mod build;
 pub mod copy;
 mod decode;
 mod detail;
+mod editor;
 pub mod examples;
 mod explain;
 #[cfg(feature = "json")]
@@ -21,6 +22,7 @@ pub use crate::walk::guide::{Row, Size};
 pub use build::{build, replies};
 pub use decode::{Options, Report, Settings, Summary, Telegram, decode};
 pub use detail::Detail;
+pub use editor::Editor;
 pub use explain::Explanation;
 pub use offers::{Offer, offers};
 pub use views::{Kind, View, views};

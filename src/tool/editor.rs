@@ -1,0 +1,347 @@
+//! A telegram while it is made: its form, the bytes that follow from it, and what does not fit.
+
+use super::{Offer, Settings, build};
+use crate::device::Draft;
+use crate::field::{Direction, Message, Role, Spec, number_text};
+use crate::frame::{Cargo, Frame, Protocol};
+use crate::modbus::Pdu;
+use crate::walk::form::{self, Content, Entry, Form, Misfit};
+use crate::walk::{self, Deviations, Telegram, Walk, Walker};
+
+/// What is typed into a form is kept as it was typed. Entries that do not fit leave the telegram as it
+/// was, and are listed in [`misfits`](Self::misfits).
+///
+/// ```
+/// use buslens::tool::{Editor, PROTOCOLS, Settings};
+/// use buslens::field::Direction;
+///
+/// let request = [0x01, 0x03, 0x00, 0xC8, 0x00, 0x03, 0x84, 0x35];
+/// let mut editor = Editor::of(&request, PROTOCOLS[0], Direction::Request, &Settings::default());
+/// editor.enter("start", "0xD7");
+/// assert_eq!(editor.bytes().unwrap(), [0x01, 0x03, 0x00, 0xD7, 0x00, 0x03, 0xB5, 0xF3]);
+/// ```
+pub struct Editor {
+    pub protocol: &'static Protocol,
+    pub direction: Direction,
+    subject: Subject,
+    form: Form,
+    deviations: Deviations,
+    misfits: Vec<Misfit>,
+}
+
+/// What the form is of.
+enum Subject {
+    /// A request in the device's words.
+    Task(Asking),
+    /// Every field of a telegram.
+    Telegram(Box<dyn Frame>),
+}
+
+/// A task for one unit.
+struct Asking {
+    unit: u8,
+    draft: Draft,
+}
+
+impl Editor {
+    /// A telegram with nothing filled in. The message says why the protocol does not carry it.
+    pub fn new(
+        offer: Offer,
+        unit: u8,
+        protocol: &'static Protocol,
+        settings: &Settings,
+    ) -> Result<Self, Message> {
+        let carried = |cargo| {
+            (protocol.carry)(unit, cargo).ok_or_else(|| {
+                crate::message!(
+                    "{protocol} does not carry such a telegram",
+                    protocol = protocol.label.to_owned()
+                )
+            })
+        };
+        let (direction, subject) = match offer {
+            Offer::Telegram(kind) => {
+                let pdu = Pdu::expect(kind.function, kind.direction, settings.frame.dialect);
+                (kind.direction, Subject::Telegram(carried(Cargo::Modbus(pdu))?))
+            }
+            Offer::Service(kind) => {
+                let body = (kind.new)(&settings.frame.profibus);
+                (kind.direction, Subject::Telegram(carried(Cargo::Profibus(kind, body))?))
+            }
+            Offer::Task(task) => (Direction::Request, Subject::Task(Asking { unit, draft: task.draft() })),
+        };
+        Ok(Self::with(subject, Deviations::default(), protocol, direction))
+    }
+
+    /// A telegram that there is, faults included: [`bytes`](Self::bytes) gives the same bytes again.
+    pub fn of(bytes: &[u8], protocol: &'static Protocol, direction: Direction, settings: &Settings) -> Self {
+        let mut frame = (protocol.expect)(bytes, direction, &settings.frame);
+        let deviations = walk::read(frame.as_mut(), bytes).deviations(frame.as_mut());
+        Self::with(Subject::Telegram(frame), deviations, protocol, direction)
+    }
+
+    fn with(
+        mut subject: Subject,
+        deviations: Deviations,
+        protocol: &'static Protocol,
+        direction: Direction,
+    ) -> Self {
+        let form = form::form(subject.telegram(), &deviations);
+        Self { protocol, direction, subject, form, deviations, misfits: Vec::new() }
+    }
+
+    /// What can be edited, as it was typed.
+    pub fn form(&self) -> &Form {
+        &self.form
+    }
+
+    /// What was typed and does not fit.
+    pub fn misfits(&self) -> &[Misfit] {
+        &self.misfits
+    }
+
+    /// The telegram's bytes, or why there is none: what the entries say cannot be asked for.
+    pub fn bytes(&mut self) -> Result<Vec<u8>, Message> {
+        match &mut self.subject {
+            Subject::Telegram(frame) => Ok(walk::write(frame.as_mut(), &self.deviations)),
+            Subject::Task(asking) => {
+                let mut frame = build(&mut asking.draft, asking.unit, self.protocol)?;
+                Ok(walk::write(frame.as_mut(), &Deviations::default()))
+            }
+        }
+    }
+
+    /// Makes every field of the telegram an entry, where so far it was a request in the device's words.
+    pub fn open_all(&mut self) -> Result<(), Message> {
+        if let Subject::Task(asking) = &mut self.subject {
+            let frame = build(&mut asking.draft, asking.unit, self.protocol)?;
+            *self =
+                Self::with(Subject::Telegram(frame), Deviations::default(), self.protocol, self.direction);
+        }
+        Ok(())
+    }
+
+    /// Whether the form is a request in the device's words, which has fewer entries than the telegram
+    /// has fields.
+    pub fn is_task(&self) -> bool {
+        matches!(self.subject, Subject::Task(_))
+    }
+
+    /// The telegram, if its every field is an entry.
+    pub fn frame(&mut self) -> Option<&mut dyn Frame> {
+        match &mut self.subject {
+            Subject::Telegram(frame) => Some(frame.as_mut()),
+            Subject::Task(_) => None,
+        }
+    }
+
+    /// Types `text` into the entry at `path`: a number, text or bytes, or what to write instead of a
+    /// computed number (nothing for what is computed).
+    pub fn enter(&mut self, path: &str, typed: &str) {
+        self.edit(path, |content| match content {
+            Content::Number { text, .. }
+            | Content::Computed { text, .. }
+            | Content::Bytes { text }
+            | Content::Text { text }
+            | Content::Extra { text }
+            | Content::Cut { text } => typed.clone_into(text),
+            Content::Choice { .. } | Content::List { .. } | Content::Group { .. } => {}
+        });
+    }
+
+    /// Chooses what follows: `raw` is one of the names of the entry's spec, or any other number.
+    pub fn choose(&mut self, path: &str, raw: u64) {
+        self.edit(path, |content| {
+            if let Content::Choice { raw: chosen, .. } = content {
+                *chosen = raw;
+            }
+        });
+    }
+
+    /// Sets some bits of the number at `path`: part `part` of its spec.
+    pub fn set_bits(&mut self, path: &str, part: usize, value: u64) {
+        let Some(spec) = find(&mut self.form.entries, path).map(|entry| entry.spec) else { return };
+        let Some(part) = spec.bits.get(part) else { return };
+        self.edit(path, |content| {
+            if let Content::Number { width, text } = content {
+                // What does not fit is no number to set bits of.
+                let raw = form::parse_value(text, *width, spec).unwrap_or(0);
+                *text = number_text(part.put(raw, value), *width, spec.format);
+            }
+        });
+    }
+
+    /// Adds an item to the end of the list at `path`.
+    pub fn add(&mut self, path: &str) {
+        self.edit(path, |content| {
+            if let Content::List { items } = content {
+                items.push(Vec::new());
+            }
+        });
+    }
+
+    /// Takes item `index` from the list at `path`.
+    pub fn remove(&mut self, path: &str, index: usize) {
+        self.edit(path, |content| {
+            if let Content::List { items } = content
+                && index < items.len()
+            {
+                items.remove(index);
+            }
+        });
+    }
+
+    fn edit(&mut self, path: &str, change: impl FnOnce(&mut Content)) {
+        let Some(entry) = find(&mut self.form.entries, path) else { return };
+        change(&mut entry.content);
+        let telegram = self.subject.telegram();
+        match form::fill(telegram, &self.form) {
+            Ok(deviations) => {
+                self.deviations = deviations;
+                self.misfits.clear();
+            }
+            Err(misfits) => self.misfits = misfits,
+        }
+        let mut fresh = form::form(telegram, &self.deviations);
+        keep_typed(&mut fresh.entries, &self.form.entries);
+        self.form = fresh;
+    }
+}
+
+impl Subject {
+    fn telegram(&mut self) -> &mut dyn Telegram {
+        match self {
+            Self::Task(asking) => asking,
+            Self::Telegram(frame) => frame.as_mut(),
+        }
+    }
+}
+
+impl Telegram for Asking {
+    fn walk(&mut self, w: &mut dyn Walker) -> Walk {
+        w.u8(&UNIT, &mut self.unit)?;
+        self.draft.walk(w)
+    }
+}
+
+static UNIT: Spec = Spec::new("unit", "Unit or station").role(Role::Address).note("Whom the request is for.");
+
+/// The entry at `path`.
+fn find<'a>(entries: &'a mut [Entry], path: &str) -> Option<&'a mut Entry> {
+    for entry in entries {
+        if entry.path == path {
+            return Some(entry);
+        }
+        let found = match &mut entry.content {
+            Content::List { items } => items.iter_mut().find_map(|item| find(item, path)),
+            Content::Group { entries } => find(entries, path),
+            _ => None,
+        };
+        if found.is_some() {
+            return found;
+        }
+    }
+    None
+}
+
+/// Puts what was typed into the entries of `fresh` that were there before.
+fn keep_typed(fresh: &mut [Entry], typed: &[Entry]) {
+    for entry in fresh {
+        let Some(before) = typed.iter().find(|before| std::ptr::eq(before.spec, entry.spec)) else {
+            continue;
+        };
+        match (&mut entry.content, &before.content) {
+            (Content::Number { text, .. }, Content::Number { text: typed, .. })
+            | (Content::Computed { text, .. }, Content::Computed { text: typed, .. })
+            | (Content::Bytes { text }, Content::Bytes { text: typed })
+            | (Content::Text { text }, Content::Text { text: typed })
+            | (Content::Extra { text }, Content::Extra { text: typed })
+            | (Content::Cut { text }, Content::Cut { text: typed }) => typed.clone_into(text),
+            (Content::List { items }, Content::List { items: typed }) => {
+                items.iter_mut().zip(typed).for_each(|(item, typed)| keep_typed(item, typed));
+            }
+            (Content::Group { entries }, Content::Group { entries: typed }) => keep_typed(entries, typed),
+            _ => {}
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::PROTOCOLS;
+    use crate::tool::{PROFILES, offers};
+
+    fn editor(request: &[u8]) -> Editor {
+        Editor::of(request, PROTOCOLS[0], Direction::Request, &Settings::default())
+    }
+
+    fn text(editor: &mut Editor, path: &str) -> String {
+        match find(&mut editor.form.entries, path).map(|entry| entry.content.clone()) {
+            Some(Content::Number { text, .. } | Content::Computed { text, .. }) => text,
+            other => panic!("{path}: {other:?}"),
+        }
+    }
+
+    #[test]
+    fn what_does_not_fit_is_kept_and_said() {
+        let bytes = [0x01, 0x03, 0x00, 0xC8, 0x00, 0x03, 0x84, 0x35];
+        let mut editor = editor(&bytes);
+        editor.enter("start", "seven");
+        assert_eq!(text(&mut editor, "start"), "seven");
+        assert_eq!(editor.misfits()[0].path, "start");
+        assert_eq!(editor.bytes().unwrap(), bytes);
+        // An entry beside it still counts, and what was typed wrong stays.
+        editor.enter("unit", "0x02");
+        assert_eq!(text(&mut editor, "start"), "seven");
+        assert_eq!(text(&mut editor, "unit"), "0x02");
+        editor.enter("start", "7");
+        assert!(editor.misfits().is_empty());
+        assert_eq!(editor.bytes().unwrap()[..6], [0x02, 0x03, 0x00, 0x07, 0x00, 0x03]);
+    }
+
+    #[test]
+    fn lists_grow_and_shrink_where_asked() {
+        let mut editor = editor(&[1, 0x10, 0, 7, 0, 2, 4, 0, 10, 0, 11, 0, 0]);
+        editor.enter("values.1.value", "0x0C");
+        editor.add("values");
+        editor.enter("values.2.value", "13");
+        editor.remove("values", 0);
+        assert_eq!(text(&mut editor, "values.0.value"), "0x0C");
+        assert_eq!(editor.bytes().unwrap()[4..11], [0, 2, 4, 0, 12, 0, 13]);
+        editor.remove("values", 9);
+        assert_eq!(editor.bytes().unwrap().len(), 13);
+    }
+
+    #[test]
+    fn a_computed_number_can_be_overridden_and_given_back() {
+        let mut editor = editor(&[1, 3, 0, 200, 0, 3, 0x84, 0x35]);
+        editor.enter("crc", "0");
+        assert_eq!(editor.bytes().unwrap()[6..], [0, 0]);
+        editor.enter("crc", "");
+        assert_eq!(editor.bytes().unwrap()[6..], [0x84, 0x35]);
+    }
+
+    /// Whatever is offered can be opened in at least one protocol, and what was made of it is read
+    /// again as the same form.
+    #[test]
+    fn every_offer_is_built() {
+        let settings = Settings::default();
+        for device in PROFILES {
+            for offer in offers(Some(device)) {
+                let made: Vec<Editor> = PROTOCOLS
+                    .iter()
+                    .filter_map(|protocol| Editor::new(offer, 1, protocol, &settings).ok())
+                    .filter_map(|mut editor| editor.bytes().is_ok().then_some(editor))
+                    .collect();
+                let what = offer.label().to_string();
+                assert!(!made.is_empty() || what.starts_with("write"), "{}: {what}", device.key);
+                for mut editor in made {
+                    let bytes = editor.bytes().unwrap();
+                    let mut again = Editor::of(&bytes, editor.protocol, editor.direction, &settings);
+                    assert_eq!(again.bytes().unwrap(), bytes, "{what}");
+                }
+            }
+        }
+    }
+}
