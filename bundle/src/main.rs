@@ -1,8 +1,9 @@
 //! Turns compiled wasm into the static page.
 //!
 //! `cargo xtask build` runs this in the project's folder as
-//! `bundle <folder> <name>=<wasm file>…`; the first module is the page's own. It reads `index.html`
-//! and `style/`, and leaves the folder holding the finished page and nothing else.
+//! `bundle <folder> <name>=<wasm file>…`. Each module gets a document of its own from the template
+//! `page.html`, the first one as `index.html`, the others as `<name>.html`. The style is in `style/`.
+//! The folder is left holding the finished page and nothing else.
 
 mod names;
 mod page;
@@ -36,7 +37,9 @@ fn run() -> Result<(), String> {
         let (name, path) = argument.split_once('=').ok_or(usage)?;
         modules.push(Module::read(name, Path::new(path))?);
     }
-    let first = modules.first().ok_or(usage)?;
+    if modules.is_empty() {
+        return Err(usage.to_owned());
+    }
 
     let mut style = stylesheet(Path::new("style"))?;
     style.push_str(page::NOTE_STYLE);
@@ -44,29 +47,28 @@ fn run() -> Result<(), String> {
         minifier::css::minify(&style).map_err(|error| format!("The stylesheet has a slip: {error}."))?;
     let style = hashed("page", "css", style.to_string().into_bytes());
     let icon = hashed("icon", "svg", read(Path::new("style/icon.svg"))?);
-    let boot = hashed("boot", "js", page::boot(&first.glue, &first.wasm)?.into_bytes());
-    let template = String::from_utf8(read(Path::new("index.html"))?)
-        .map_err(|_| "index.html is not UTF-8.".to_owned())?;
-    let index = File {
-        name: "index.html".to_owned(),
-        content: page::html(
-            &template,
-            &Links { style: &style, icon: &icon, boot: &boot, glue: &first.glue, wasm: &first.wasm },
-        )?
-        .into_bytes(),
-    };
-
-    let mut files = vec![style, icon, boot];
-    for module in modules {
-        files.extend([module.glue, module.wasm]);
+    let template =
+        String::from_utf8(read(Path::new("page.html"))?).map_err(|_| "page.html is not UTF-8.".to_owned())?;
+    let mut files = Vec::new();
+    let mut documents = Vec::new();
+    for (index, module) in modules.into_iter().enumerate() {
+        let Module { name, glue, wasm } = module;
+        let boot = hashed("boot", "js", page::boot(&glue, &wasm)?.into_bytes());
+        let links = Links { style: &style, icon: &icon, boot: &boot, glue: &glue, wasm: &wasm };
+        let name = if index == 0 { "index" } else { &name };
+        let content = page::html(&template, &links)?.into_bytes();
+        documents.push(File { name: format!("{name}.html"), content });
+        files.extend([boot, glue, wasm]);
     }
+    files.extend([style, icon]);
     // Last, so that a page served from this folder during a build finds all it links to.
-    files.push(index);
+    files.extend(documents);
     write_all(&folder, &files)
 }
 
 /// What wasm-bindgen makes of one compiled module.
 struct Module {
+    name: String,
     glue: File,
     wasm: File,
 }
@@ -97,6 +99,7 @@ impl Module {
         let glue = minifier::js::minify(output.js())
             .map_err(|error| format!("The glue of {name} cannot be made smaller: {error}."))?;
         Ok(Module {
+            name: name.to_owned(),
             glue: hashed(name, "js", glue.to_string().into_bytes()),
             wasm: hashed(name, "wasm", output.wasm_mut().emit_wasm()),
         })

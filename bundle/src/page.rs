@@ -1,4 +1,4 @@
-//! The text files of the page: `index.html` with its links and its policy, and the boot script.
+//! The text files of the page: its documents with its links and its policy, and the boot script.
 
 use crate::names::integrity;
 
@@ -27,7 +27,7 @@ pub struct File {
     pub content: Vec<u8>,
 }
 
-/// What `index.html` links to.
+/// What a document links to.
 pub struct Links<'a> {
     pub style: &'a File,
     pub icon: &'a File,
@@ -43,7 +43,7 @@ pub fn boot(glue: &File, wasm: &File) -> Result<String, String> {
     replace_once(&text, "./page.wasm", &format!("./{}", wasm.name))
 }
 
-/// `index.html`: the template with the policy at the start of its head, before anything that the
+/// A document: the template with the policy at the start of its head, before anything that the
 /// policy governs, the links at the end of it, and the note in the body. All addresses are relative,
 /// so that the page works in any folder of a site.
 pub fn html(template: &str, links: &Links) -> Result<String, String> {

@@ -26,8 +26,13 @@ pub struct Page {
 }
 
 impl Page {
-    /// Opens the page.
-    pub async fn open((width, height): (u32, u32), dark: bool) -> Result<Self> {
+    /// Opens the page's first document.
+    pub async fn open(size: (u32, u32), dark: bool) -> Result<Self> {
+        Self::open_at("", size, dark).await
+    }
+
+    /// Opens a document of the page.
+    pub async fn open_at(document: &str, (width, height): (u32, u32), dark: bool) -> Result<Self> {
         let mut options = DesiredCapabilities::chrome();
         options.set_binary(&setting("BUSLENS_CHROMIUM"))?;
         for argument in [
@@ -49,8 +54,8 @@ impl Page {
         let scheme = json!({ "name": "prefers-color-scheme", "value": if dark { "dark" } else { "light" } });
         driver.cdp().send_raw("Emulation.setEmulatedMedia", json!({ "features": [scheme] })).await?;
         let page = Self { driver };
-        page.driver.goto(setting("BUSLENS_URL")).await?;
-        page.one("#input").await?;
+        page.driver.goto(format!("{}{document}", setting("BUSLENS_URL"))).await?;
+        page.one("#main").await?;
         Ok(page)
     }
 
@@ -104,6 +109,14 @@ impl Page {
         let script = "const input = document.getElementById('input'); input.value = arguments[0]; \
                       input.dispatchEvent(new Event('input', { bubbles: true }))";
         self.driver.execute(script, vec![json!(text)]).await?;
+        self.settle().await
+    }
+
+    /// Types `text` in place of what the entry of a form holds.
+    pub async fn enter(&self, entry: &str, text: &str) -> Result {
+        let script = "const field = document.getElementById(arguments[0]); field.focus(); field.select(); \
+                      document.execCommand('insertText', false, arguments[1])";
+        self.driver.execute(script, vec![json!(entry), json!(text)]).await?;
         self.settle().await
     }
 

@@ -116,7 +116,7 @@ async fn everything_is_reached_by_keyboard() -> Result {
         let stop = page
             .value(
                 "const e = document.activeElement; const box = e.getBoundingClientRect(); \
-                 return [e.closest('.strip, .fields, .problems, .layout, .menu, .bar, .check')?.className || e.id || e.className, \
+                 return [e.closest('.nav, .strip, .fields, .problems, .layout, .menu, .bar, .check')?.className || e.id || e.className, \
                  getComputedStyle(e).outlineStyle, [box.top, innerHeight - box.bottom, box.width - 24].map(Math.round), e.tagName]",
             )
             .await?;
@@ -130,8 +130,20 @@ async fn everything_is_reached_by_keyboard() -> Result {
         assert!(!outside, "{name} is in sight and large enough: {}", stop[2]);
         stops.push(name);
     }
-    let expected =
-        ["skip", "theme", "input", "protocol", "direction", "device", "menu", "quiet", "list", "link"];
+    let expected = [
+        "skip",
+        "nav",
+        "nav",
+        "theme",
+        "input",
+        "protocol",
+        "direction",
+        "device",
+        "menu",
+        "quiet",
+        "list",
+        "link",
+    ];
     assert_eq!(stops[..expected.len()], expected);
     for name in ["problems", "bar", "strip", "fields", "check", "layout"] {
         assert!(stops.iter().any(|stop| stop == name), "{name} is not reached: {stops:?}");

@@ -7,8 +7,8 @@ use leptos::prelude::*;
 use wasm_bindgen::JsCast;
 use wasm_bindgen::closure::Closure;
 use web_sys::{
-    Element, Event, EventInit, FocusEvent, HtmlDocument, HtmlElement, HtmlSelectElement, HtmlTextAreaElement,
-    KeyboardEvent,
+    Element, Event, EventInit, FocusEvent, HtmlDocument, HtmlElement, HtmlInputElement, HtmlSelectElement,
+    HtmlTextAreaElement, KeyboardEvent,
 };
 
 use crate::field::Span;
@@ -153,8 +153,37 @@ pub fn key(event: &Event) -> String {
 
 /// The value of the list or field that an event is of.
 pub fn value(event: &Event) -> String {
-    let list = event.target().and_then(|target| target.dyn_into::<HtmlSelectElement>().ok());
-    list.map_or(String::new(), |list| list.value())
+    let Some(target) = event.target() else { return String::new() };
+    match target.dyn_into::<HtmlSelectElement>() {
+        Ok(list) => list.value(),
+        Err(other) => other.dyn_into::<HtmlInputElement>().map_or(String::new(), |field| field.value()),
+    }
+}
+
+/// Whether the switch that an event is of is on; `None` for what is no switch.
+pub fn checked(event: &Event) -> Option<bool> {
+    let field = event.target()?.dyn_into::<HtmlInputElement>().ok()?;
+    (field.type_() == "checkbox").then(|| field.checked())
+}
+
+/// Puts `value` into the field, list or switch with this id, if it shows something else.
+pub fn set_field(id: &str, value: &str) {
+    if let Some(list) = element::<HtmlSelectElement>(id) {
+        list.set_value(value);
+    } else if let Some(field) = element::<HtmlInputElement>(id) {
+        if field.type_() == "checkbox" {
+            field.set_checked(value == "1");
+        } else if field.value() != value {
+            field.set_value(value);
+        }
+    }
+}
+
+/// Puts `text` into the element with this id.
+pub fn set_text(id: &str, text: &str) {
+    if let Some(element) = element::<Element>(id) {
+        element.set_text_content(Some(text));
+    }
 }
 
 /// Chooses `value` in the list with this id, and keeps it for the next visit.

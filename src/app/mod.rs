@@ -1,33 +1,34 @@
 //! The page. It shows what [`tool`](crate::tool) makes of the input, and knows no protocol.
 //!
-//! - `state`: what the page is about, as signals;
+//! - `state`: what is read, and `making`: what is built, as signals;
 //! - `browser`: what the browser is asked for;
 //! - `pages`: the views; `components`: their parts.
 
 mod browser;
 mod components;
+mod making;
 mod pages;
 mod state;
 
 use leptos::prelude::*;
+use making::Making;
 use state::State;
 
-/// Puts the page into the document's body.
-pub fn start() {
+/// Starts the page that reads telegrams.
+pub fn decode() {
     browser::tell_of_panics();
-    mount_to_body(|| {
-        let state = State::new();
-        browser::listen(move |event| components::hear(state, event));
-        view! { <Page state /> }
-    });
+    let state = State::new();
+    browser::listen(move |event| pages::decode::hear(state, event));
+    mount_to_body(move || view! { <pages::decode::Decode state /> });
     browser::bring_back();
 }
 
-#[component]
-fn Page(state: State) -> impl IntoView {
-    view! {
-        <a class="skip" href="#input">"Skip to the input"</a>
-        <components::header::Header />
-        <pages::decode::Decode state />
-    }
+/// Starts the page that builds telegrams.
+pub fn build() {
+    browser::tell_of_panics();
+    let state = State::new();
+    let making = Making::new();
+    browser::listen(move |event| pages::build::hear(making, state, event));
+    mount_to_body(move || view! { <pages::build::Build making state /> });
+    making.start(state);
 }

@@ -5,7 +5,7 @@ use leptos::prelude::*;
 
 use super::browser;
 use crate::field::{Direction, Field, Span, leaves};
-use crate::tool::{Detail, Options, Report, Summary, Telegram, decode};
+use crate::tool::{Detail, Options, Report, Settings, Summary, Telegram, decode};
 
 /// The page's state, as handed to every part of it.
 #[derive(Clone, Copy)]
@@ -114,6 +114,21 @@ impl State {
         // The replaced text comes back to us as an input event.
         browser::replace_undoably(browser::INPUT, text);
         self.read_as(|options| options.direction = None);
+    }
+
+    /// Shows what was built, read as what it is.
+    pub fn show_built(&self, text: String, options: Options) {
+        self.change(|decoded| {
+            decoded.text = text;
+            decoded.options = Options { settings: decoded.options.settings.clone(), ..options };
+            decoded.decode();
+            decoded.show(usize::MAX);
+        });
+    }
+
+    /// How the user's devices are set up.
+    pub fn settings(&self) -> Settings {
+        self.decoded.with_untracked(|decoded| decoded.options.settings.clone())
     }
 
     /// The cursor moved in the input.

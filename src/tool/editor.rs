@@ -2,8 +2,9 @@
 
 use super::{Offer, Settings, build};
 use crate::device::Draft;
-use crate::field::{Direction, Message, Role, Spec, number_text};
-use crate::frame::{Cargo, Frame, Protocol};
+use crate::field::{Argument, Direction, Message, Role, Spec, number_text};
+use crate::frame::{self, Cargo, Frame, Protocol};
+use crate::message;
 use crate::modbus::Pdu;
 use crate::walk::form::{self, Content, Entry, Form, Misfit};
 use crate::walk::{self, Deviations, Telegram, Walk, Walker};
@@ -53,10 +54,7 @@ impl Editor {
     ) -> Result<Self, Message> {
         let carried = |cargo| {
             (protocol.carry)(unit, cargo).ok_or_else(|| {
-                crate::message!(
-                    "{protocol} does not carry such a telegram",
-                    protocol = protocol.label.to_owned()
-                )
+                message!("{protocol} does not carry such a telegram", protocol = protocol.label.to_owned())
             })
         };
         let (direction, subject) = match offer {
@@ -107,6 +105,43 @@ impl Editor {
             Subject::Task(asking) => {
                 let mut frame = build(&mut asking.draft, asking.unit, self.protocol)?;
                 Ok(walk::write(frame.as_mut(), &Deviations::default()))
+            }
+        }
+    }
+
+    /// Lets another protocol carry the same. What was typed stays, as far as the other has such fields.
+    pub fn carry_by(&mut self, protocol: &'static Protocol, settings: &Settings) -> Result<(), Message> {
+        let unit = self.unit();
+        let offer = match &mut self.subject {
+            Subject::Task(asking) => {
+                build(&mut asking.draft, unit, protocol)?;
+                self.protocol = protocol;
+                return Ok(());
+            }
+            Subject::Telegram(frame) => match frame.content() {
+                frame::Content::Modbus { pdu, .. } => Offer::Telegram(pdu.kind),
+                frame::Content::Profibus { kind, .. } => Offer::Service(kind),
+                frame::Content::Nothing(spec) => {
+                    return Err(message!(
+                        "{protocol} has no {telegram}",
+                        protocol = protocol.label.to_owned(),
+                        telegram = Argument::Term(spec.label)
+                    ));
+                }
+            },
+        };
+        let mut other = Self::new(offer, unit, protocol, settings)?;
+        other.take(&self.form);
+        *self = other;
+        Ok(())
+    }
+
+    /// The unit or station that the telegram is for or from; 1 where it does not say.
+    pub fn unit(&mut self) -> u8 {
+        match &self.subject {
+            Subject::Task(asking) => asking.unit,
+            Subject::Telegram(_) => {
+                self.bytes().ok().and_then(|bytes| (self.protocol.unit)(&bytes)).unwrap_or(1)
             }
         }
     }
@@ -194,8 +229,14 @@ impl Editor {
     fn edit(&mut self, path: &str, change: impl FnOnce(&mut Content)) {
         let Some(entry) = find(&mut self.form.entries, path) else { return };
         change(&mut entry.content);
+        let typed = self.form.clone();
+        self.take(&typed);
+    }
+
+    /// Takes the entries of `typed` that the telegram has.
+    fn take(&mut self, typed: &Form) {
         let telegram = self.subject.telegram();
-        match form::fill(telegram, &self.form) {
+        match form::fill(telegram, typed) {
             Ok(deviations) => {
                 self.deviations = deviations;
                 self.misfits.clear();
@@ -203,7 +244,7 @@ impl Editor {
             Err(misfits) => self.misfits = misfits,
         }
         let mut fresh = form::form(telegram, &self.deviations);
-        keep_typed(&mut fresh.entries, &self.form.entries);
+        keep_typed(&mut fresh.entries, &typed.entries);
         self.form = fresh;
     }
 }
@@ -320,6 +361,19 @@ mod tests {
         assert_eq!(editor.bytes().unwrap()[6..], [0, 0]);
         editor.enter("crc", "");
         assert_eq!(editor.bytes().unwrap()[6..], [0x84, 0x35]);
+    }
+
+    #[test]
+    fn another_protocol_carries_what_was_typed() {
+        let mut editor = editor(&[7, 3, 0, 200, 0, 3, 0, 0]);
+        let tcp = PROTOCOLS.iter().find(|protocol| protocol.key == "modbus-tcp").unwrap();
+        editor.enter("start", "0xD7");
+        editor.carry_by(tcp, &Settings::default()).unwrap();
+        assert_eq!(text(&mut editor, "start"), "0xD7");
+        assert_eq!(editor.bytes().unwrap(), [0, 1, 0, 0, 0, 6, 7, 3, 0, 0xD7, 0, 3]);
+        let channel = PROTOCOLS.iter().find(|protocol| protocol.key == "profibus-fdl").unwrap();
+        assert!(editor.carry_by(channel, &Settings::default()).is_err());
+        assert_eq!(editor.protocol.key, "modbus-tcp");
     }
 
     /// Whatever is offered can be opened in at least one protocol, and what was made of it is read

@@ -12,6 +12,13 @@ pub struct Form {
     pub entries: Vec<Entry>,
 }
 
+impl Form {
+    /// Calls `visit` with every entry, those of lists and groups included.
+    pub fn visit<'a>(&'a self, visit: &mut impl FnMut(&'a Entry)) {
+        self.entries.iter().for_each(|entry| entry.visit(visit));
+    }
+}
+
 /// One field of a form.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
@@ -20,6 +27,22 @@ pub struct Entry {
     /// The field's place in the telegram: `pdu.values.3.value`.
     pub path: String,
     pub content: Content,
+}
+
+impl Entry {
+    fn visit<'a>(&'a self, visit: &mut impl FnMut(&'a Self)) {
+        visit(self);
+        match &self.content {
+            Content::List { items } => items.iter().flatten().for_each(|entry| entry.visit(visit)),
+            Content::Group { entries } => entries.iter().for_each(|entry| entry.visit(visit)),
+            _ => {}
+        }
+    }
+
+    /// The field's name in this telegram: "Quantity", "Register 215".
+    pub fn label(&self) -> Message {
+        self.spec.numbered(self.number)
+    }
 }
 
 #[derive(Clone, Debug, PartialEq)]

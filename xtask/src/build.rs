@@ -11,14 +11,18 @@ use crate::tools;
 /// Where the page goes.
 pub const DIST: &str = "dist";
 
-/// A binary of the root package that becomes a wasm file.
+/// A binary of the root package that becomes a wasm file and a document.
 struct Module {
+    /// What its files are called.
     name: &'static str,
-    features: &'static str,
+    /// Cargo keeps the name `build` for itself.
+    binary: &'static str,
 }
 
-/// All wasm files of the page. The first is the one that the page starts with.
-const MODULES: &[Module] = &[Module { name: "page", features: "page" }];
+/// The page's documents, each with a wasm file of its own: who reads telegrams need not wait for the
+/// forms that build them. The first is `index.html`.
+const MODULES: &[Module] =
+    &[Module { name: "decode", binary: "decode-page" }, Module { name: "build", binary: "build-page" }];
 
 pub fn run() -> Result {
     let start = Instant::now();
@@ -65,13 +69,13 @@ fn compile(module: &Module) -> Result<PathBuf> {
     steps::run(
         tools::cargo()
             .args(["build", "--profile", "page", "--target", tools::WASM])
-            .args(["--no-default-features", "--features", module.features])
-            .args(["--bin", module.name])
+            .args(["--no-default-features", "--features", "page"])
+            .args(["--bin", module.binary])
             // Not RUSTFLAGS, which splits at spaces, and a path may have one.
             .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}".as_ref()))
             .env_remove("RUSTFLAGS"),
     )?;
-    Ok(tools::target_folder().join(tools::WASM).join("page").join(format!("{}.wasm", module.name)))
+    Ok(tools::target_folder().join(tools::WASM).join("page").join(format!("{}.wasm", module.binary)))
 }
 
 /// The folders of this machine whose names the compiler would write into the texts of panics, and

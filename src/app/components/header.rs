@@ -11,8 +11,11 @@ use crate::app::browser;
 const THEME: &str = "theme";
 
 #[component]
-pub fn Header() -> impl IntoView {
-    view! { <header class="top" inner_html=content()></header> }
+pub fn Header(
+    /// The address of the view that is shown.
+    here: &'static str,
+) -> impl IntoView {
+    view! { <header class="top" inner_html=content(here)></header> }
 }
 
 pub fn hear(kind: &str, event: &Event) {
@@ -25,11 +28,20 @@ pub fn hear(kind: &str, event: &Event) {
     }
 }
 
-fn content() -> String {
+/// The views, each a document of its own.
+const VIEWS: [(&str, &str); 2] = [(".", "Decode"), ("build.html", "Build")];
+
+fn content(here: &str) -> String {
     let chosen = browser::remembered(THEME).unwrap_or_default();
     let markup = html! {
+        a.skip href="#main" { "Skip to the content" }
         h1 { "Bus" span { "lens" } }
-        p.promise { "Reads field-bus telegrams. Nothing leaves this page." }
+        nav.nav aria-label="Views" {
+            @for (address, label) in VIEWS {
+                a href=(address) aria-current=[(address == here).then_some("page")] { (label) }
+            }
+        }
+        p.promise { "Reads and builds field-bus telegrams. Nothing leaves this page." }
         label.theme {
             span { "Theme" }
             select id=(THEME) aria-label="Theme" {

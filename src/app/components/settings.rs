@@ -44,7 +44,7 @@ fn content() -> Markup {
 }
 
 /// A list to choose from: what counts where nobody chooses, then the others, each with its key.
-fn list(
+pub fn list(
     id: &str,
     label: &str,
     otherwise: &str,

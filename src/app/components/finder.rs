@@ -1,0 +1,85 @@
+//! What can be built, found by typing a part of its name, its function code or an address.
+
+use leptos::prelude::*;
+use maud::{Markup, html};
+use web_sys::Event;
+
+use super::settings::list;
+use crate::app::browser::{self, DEVICE, PROTOCOL};
+use crate::app::making::{Made, Making};
+use crate::app::state::{State, count};
+use crate::tool::{PROFILES, PROTOCOLS};
+
+#[component]
+pub fn Finder(making: Making) -> impl IntoView {
+    let found = move || making.with(|made| found(made).into_string());
+    view! {
+        <section class="card finder" aria-label="What to build">
+            <div inner_html=content().into_string()></div>
+            <div id=OFFERS class="offers" inner_html=found></div>
+        </section>
+    }
+}
+
+pub fn hear(making: Making, state: State, kind: &str, event: &Event) {
+    let id = browser::id(event);
+    match (kind, id.as_str()) {
+        ("input", FIND) => making.find(browser::value(event)),
+        ("change", DEVICE) => {
+            let key = browser::value(event);
+            making.ask_device(state, PROFILES.iter().copied().find(|it| it.key == key));
+        }
+        ("change", PROTOCOL) => {
+            let key = browser::value(event);
+            if let Some(protocol) = PROTOCOLS.iter().copied().find(|it| it.key == key) {
+                making.carry_by(state, protocol);
+            }
+        }
+        ("click", _) => {
+            if let Some(index) = browser::attribute(event, "data-offer").and_then(|index| index.parse().ok())
+            {
+                making.choose(state, index);
+            }
+        }
+        _ => {}
+    }
+}
+
+const FIND: &str = "find";
+const OFFERS: &str = "offers";
+
+fn content() -> Markup {
+    html! {
+        div.settings {
+            (list(DEVICE, "Device", "Any", PROFILES.iter().map(|it| (it.key, it.label))))
+            (list(PROTOCOL, "Protocol", "As it is carried", PROTOCOLS.iter().map(|it| (it.key, it.label))))
+        }
+        label.title for=(FIND) { "What should it do? A name, a function code or an address" }
+        input id=(FIND) type="search" autocomplete="off" spellcheck="false" aria-controls=(OFFERS)
+            placeholder="write channel, 16, 0x5F00";
+    }
+}
+
+/// The first of what fits.
+fn found(made: &Made) -> Markup {
+    /// More are not read by anybody: a letter more finds fewer.
+    const SHOWN: usize = 100;
+    let offers = made.offers();
+    let chosen = made.chosen.map(|offer| offer.label());
+    html! {
+        @if offers.is_empty() {
+            p.remarks { "Nothing is called so. Try a part of the name, a function code such as 16, or an address such as 0x5F00." }
+        }
+        ul {
+            @for (index, offer) in offers.iter().enumerate().take(SHOWN) {
+                @let label = offer.label();
+                li {
+                    button type="button" data-offer=(index) aria-pressed=(Some(&label) == chosen.as_ref()) {
+                        (label.sentence())
+                    }
+                }
+            }
+        }
+        @if offers.len() > SHOWN { p.more { "and " (count(offers.len() - SHOWN, "more")) } }
+    }
+}

@@ -1,0 +1,188 @@
+//! What is being built. As in `state`, what is shown follows from the signals here, and only the
+//! methods here change them.
+
+use leptos::prelude::*;
+
+use super::browser;
+use super::state::State;
+use crate::field::{Message, hex};
+use crate::tool::{Content, Editor, Offer, Options, PROTOCOLS, Profile, Protocol, offers};
+
+/// The page's state, as handed to every part of it.
+#[derive(Clone, Copy)]
+pub struct Making {
+    /// What can be built, and what of it is.
+    made: RwSignal<Made, LocalStorage>,
+    /// Counts on whenever the form has other entries than before. In between, its fields stay as they
+    /// are while somebody types.
+    pub shape: RwSignal<usize>,
+}
+
+/// What is built, and of what it was chosen.
+pub struct Made {
+    pub device: Option<&'static Profile>,
+    pub protocol: &'static Protocol,
+    /// What was typed to find something.
+    pub find: String,
+    pub chosen: Option<Offer>,
+    pub editor: Option<Editor>,
+    /// Why there are no bytes.
+    pub refused: Option<Message>,
+}
+
+impl Default for Made {
+    fn default() -> Self {
+        Self {
+            device: None,
+            protocol: PROTOCOLS[0],
+            find: String::new(),
+            chosen: None,
+            editor: None,
+            refused: None,
+        }
+    }
+}
+
+impl Made {
+    /// What can be built and fits what was typed.
+    pub fn offers(&self) -> Vec<Offer> {
+        let mut offers = offers(self.device);
+        offers.retain(|offer| offer.fits(&self.find));
+        offers
+    }
+}
+
+impl Making {
+    pub fn new() -> Self {
+        Self { made: RwSignal::new_local(Made::default()), shape: RwSignal::new(0) }
+    }
+
+    /// Looks at what is built, and is called again when something else is.
+    pub fn with<T>(&self, look: impl FnOnce(&Made) -> T) -> T {
+        self.made.with(look)
+    }
+
+    /// Looks at what is built now.
+    pub fn now<T>(&self, look: impl FnOnce(&Made) -> T) -> T {
+        self.made.with_untracked(look)
+    }
+
+    /// Opens what the address asks for, or the first thing that there is.
+    pub fn start(&self, state: State) {
+        browser::bring_back();
+        self.choose(state, 0);
+    }
+
+    /// Types a part of the name of what is to be built.
+    pub fn find(&self, typed: String) {
+        self.made.update(|made| made.find = typed);
+    }
+
+    /// Builds for another device, or for any.
+    pub fn ask_device(&self, state: State, device: Option<&'static Profile>) {
+        self.made.update(|made| made.device = device);
+        self.show(state);
+    }
+
+    /// Builds what is at `index` of the list.
+    pub fn choose(&self, state: State, index: usize) {
+        self.made.update(|made| {
+            let Some(offer) = made.offers().get(index).copied() else { return };
+            let settings = state.settings();
+            let unit = made.editor.as_mut().map_or(1, Editor::unit);
+            // Its protocol, or else the first that carries such a thing.
+            let carriers = [made.protocol].into_iter().chain(PROTOCOLS.iter().copied());
+            let opened =
+                carriers.filter_map(|protocol| Editor::new(offer, unit, protocol, &settings).ok()).next();
+            if let Some(editor) = opened {
+                made.protocol = editor.protocol;
+                made.editor = Some(editor);
+                made.chosen = Some(offer);
+            }
+        });
+        self.reshape();
+        self.show(state);
+    }
+
+    /// Lets another protocol carry it.
+    pub fn carry_by(&self, state: State, protocol: &'static Protocol) {
+        self.made.update(|made| {
+            let settings = state.settings();
+            made.refused = match &mut made.editor {
+                Some(editor) => editor.carry_by(protocol, &settings).err(),
+                None => None,
+            };
+            if made.refused.is_none() {
+                made.protocol = protocol;
+            }
+        });
+        self.reshape();
+        self.show(state);
+    }
+
+    /// Makes every field an entry of the form.
+    pub fn open_all(&self, state: State) {
+        self.made.update(|made| {
+            if let Some(editor) = &mut made.editor {
+                made.refused = editor.open_all().err();
+            }
+        });
+        self.reshape();
+        self.show(state);
+    }
+
+    /// Changes the form.
+    pub fn edit(&self, state: State, edit: impl FnOnce(&mut Editor)) {
+        let mut other = false;
+        self.made.update_untracked(|made| {
+            if let Some(editor) = &mut made.editor {
+                let before = shape(editor);
+                edit(editor);
+                other = shape(editor) != before;
+            }
+        });
+        if other {
+            self.reshape();
+        }
+        self.show(state);
+    }
+
+    fn reshape(&self) {
+        self.shape.update(|shape| *shape += 1);
+    }
+
+    /// Shows the telegram as Decode would.
+    fn show(&self, state: State) {
+        browser::set_value(browser::PROTOCOL, self.now(|made| made.protocol.key));
+        let mut text = None;
+        let mut options = Options::default();
+        self.made.update_untracked(|made| {
+            options.device = made.device;
+            if let Some(editor) = &mut made.editor {
+                options.protocol = Some(editor.protocol);
+                options.direction = Some(editor.direction);
+                match editor.bytes() {
+                    Ok(bytes) => {
+                        made.refused = None;
+                        text = Some(hex(&bytes));
+                    }
+                    Err(message) => made.refused = Some(message),
+                }
+            }
+        });
+        state.show_built(text.unwrap_or_default(), options);
+    }
+}
+
+/// Which entries a form has: when that changes, its fields are made anew.
+fn shape(editor: &Editor) -> String {
+    let mut shape = String::new();
+    editor.form().visit(&mut |entry| {
+        shape.push_str(&entry.path);
+        if let Content::Choice { raw, .. } = entry.content {
+            shape.push_str(&raw.to_string());
+        }
+        shape.push(' ');
+    });
+    shape
+}

@@ -1,0 +1,5 @@
+//! The page that builds telegrams.
+
+fn main() {
+    buslens::app::build();
+}

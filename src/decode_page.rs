@@ -1,0 +1,5 @@
+//! The page that reads telegrams.
+
+fn main() {
+    buslens::app::decode();
+}

@@ -1,5 +1,0 @@
-//! The web page's entry point.
-
-fn main() {
-    buslens::app::start();
-}
