@@ -122,8 +122,8 @@ PROTOCOL:    {}
 DEVICE:      {}
 
 Without FILE, or with -, it reads standard input. --fields adds the tree of fields. The settings
-are those of the devices that speak: mapping lists, layouts, byte orders, as JSON (see the module
-buslens::tool::settings).
+are those of the devices that speak: mapping lists, layouts, byte orders, a line each (see the
+module buslens::tool::settings).
 ",
         list(keys("auto", PROTOCOLS.iter().map(|protocol| protocol.key))),
         list(keys("none", PROFILES.iter().map(|profile| profile.key))),

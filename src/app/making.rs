@@ -177,7 +177,7 @@ impl Making {
 /// Which entries a form has: when that changes, its fields are made anew.
 fn shape(editor: &Editor) -> String {
     let mut shape = String::new();
-    editor.form().visit(&mut |entry| {
+    editor.entries().form.visit(&mut |entry| {
         shape.push_str(&entry.path);
         if let Content::Choice { raw, .. } = entry.content {
             shape.push_str(&raw.to_string());

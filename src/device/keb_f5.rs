@@ -13,7 +13,7 @@ use crate::field::{Bits, Format, Name, Spec};
 
 /// A word of process data: the PROFIBUS index of the parameter that it carries, and its sets as
 /// [`sets`] tells them apart. The second word of a 32-bit value has index 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ProcessWord {
     pub index: u16,
     pub sets: u8,

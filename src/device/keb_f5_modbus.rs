@@ -60,7 +60,7 @@ const OPERATOR_PARAMETER: Spec = Spec::new("operator_parameter", "Operator param
     .note("A parameter of the operator, the inverter's bus module.")
     .source(SOURCE);
 
-const fn mapping_entry(key: &'static str, label: &'static str) -> Spec {
+pub const fn mapping_entry(key: &'static str, label: &'static str) -> Spec {
     Spec::new(key, label)
         .bits(&MAPPING_ENTRY)
         .rule(|raw| match Entry(raw as u32) {

@@ -1,16 +1,14 @@
 //! A telegram while it is made: its form, the bytes that follow from it, and what does not fit.
 
-use super::{Offer, Settings, build};
+use super::{Entries, Offer, Settings, build};
 use crate::device::Draft;
-use crate::field::{Argument, Direction, Message, Role, Spec, number_text};
+use crate::field::{Argument, Direction, Message, Role, Spec};
 use crate::frame::{self, Cargo, Frame, Protocol};
 use crate::message;
 use crate::modbus::Pdu;
-use crate::walk::form::{self, Content, Entry, Form, Misfit};
 use crate::walk::{self, Deviations, Telegram, Walk, Walker};
 
-/// What is typed into a form is kept as it was typed. Entries that do not fit leave the telegram as it
-/// was, and are listed in [`misfits`](Self::misfits).
+/// A telegram, or what is to be asked of a device, with its [`Entries`].
 ///
 /// ```
 /// use buslens::tool::{Editor, PROTOCOLS, Settings};
@@ -25,9 +23,7 @@ pub struct Editor {
     pub protocol: &'static Protocol,
     pub direction: Direction,
     subject: Subject,
-    form: Form,
-    deviations: Deviations,
-    misfits: Vec<Misfit>,
+    entries: Entries,
 }
 
 /// What the form is of.
@@ -84,24 +80,19 @@ impl Editor {
         protocol: &'static Protocol,
         direction: Direction,
     ) -> Self {
-        let form = form::form(subject.telegram(), &deviations);
-        Self { protocol, direction, subject, form, deviations, misfits: Vec::new() }
+        let entries = Entries::of(subject.telegram(), deviations);
+        Self { protocol, direction, subject, entries }
     }
 
-    /// What can be edited, as it was typed.
-    pub fn form(&self) -> &Form {
-        &self.form
-    }
-
-    /// What was typed and does not fit.
-    pub fn misfits(&self) -> &[Misfit] {
-        &self.misfits
+    /// What can be edited, and what was typed that does not fit.
+    pub fn entries(&self) -> &Entries {
+        &self.entries
     }
 
     /// The telegram's bytes, or why there is none: what the entries say cannot be asked for.
     pub fn bytes(&mut self) -> Result<Vec<u8>, Message> {
         match &mut self.subject {
-            Subject::Telegram(frame) => Ok(walk::write(frame.as_mut(), &self.deviations)),
+            Subject::Telegram(frame) => Ok(walk::write(frame.as_mut(), &self.entries.deviations)),
             Subject::Task(asking) => {
                 let mut frame = build(&mut asking.draft, asking.unit, self.protocol)?;
                 Ok(walk::write(frame.as_mut(), &Deviations::default()))
@@ -131,7 +122,7 @@ impl Editor {
             },
         };
         let mut other = Self::new(offer, unit, protocol, settings)?;
-        other.take(&self.form);
+        other.entries.take(other.subject.telegram(), &self.entries.form);
         *self = other;
         Ok(())
     }
@@ -170,82 +161,21 @@ impl Editor {
         }
     }
 
-    /// Types `text` into the entry at `path`: a number, text or bytes, or what to write instead of a
-    /// computed number (nothing for what is computed).
-    pub fn enter(&mut self, path: &str, typed: &str) {
-        self.edit(path, |content| match content {
-            Content::Number { text, .. }
-            | Content::Computed { text, .. }
-            | Content::Bytes { text }
-            | Content::Text { text }
-            | Content::Extra { text }
-            | Content::Cut { text } => typed.clone_into(text),
-            Content::Choice { .. } | Content::List { .. } | Content::Group { .. } => {}
-        });
+    /// Types `text` into the entry at `path`; see [`Entries`] for this and what follows.
+    pub fn enter(&mut self, path: &str, text: &str) {
+        self.entries.enter(self.subject.telegram(), path, text);
     }
 
-    /// Chooses what follows: `raw` is one of the names of the entry's spec, or any other number.
-    pub fn choose(&mut self, path: &str, raw: u64) {
-        self.edit(path, |content| {
-            if let Content::Choice { raw: chosen, .. } = content {
-                *chosen = raw;
-            }
-        });
-    }
-
-    /// Sets some bits of the number at `path`: part `part` of its spec.
     pub fn set_bits(&mut self, path: &str, part: usize, value: u64) {
-        let Some(spec) = find(&mut self.form.entries, path).map(|entry| entry.spec) else { return };
-        let Some(part) = spec.bits.get(part) else { return };
-        self.edit(path, |content| {
-            if let Content::Number { width, text } = content {
-                // What does not fit is no number to set bits of.
-                let raw = form::parse_value(text, *width, spec).unwrap_or(0);
-                *text = number_text(part.put(raw, value), *width, spec.format);
-            }
-        });
+        self.entries.set_bits(self.subject.telegram(), path, part, value);
     }
 
-    /// Adds an item to the end of the list at `path`.
     pub fn add(&mut self, path: &str) {
-        self.edit(path, |content| {
-            if let Content::List { items } = content {
-                items.push(Vec::new());
-            }
-        });
+        self.entries.add(self.subject.telegram(), path);
     }
 
-    /// Takes item `index` from the list at `path`.
     pub fn remove(&mut self, path: &str, index: usize) {
-        self.edit(path, |content| {
-            if let Content::List { items } = content
-                && index < items.len()
-            {
-                items.remove(index);
-            }
-        });
-    }
-
-    fn edit(&mut self, path: &str, change: impl FnOnce(&mut Content)) {
-        let Some(entry) = find(&mut self.form.entries, path) else { return };
-        change(&mut entry.content);
-        let typed = self.form.clone();
-        self.take(&typed);
-    }
-
-    /// Takes the entries of `typed` that the telegram has.
-    fn take(&mut self, typed: &Form) {
-        let telegram = self.subject.telegram();
-        match form::fill(telegram, typed) {
-            Ok(deviations) => {
-                self.deviations = deviations;
-                self.misfits.clear();
-            }
-            Err(misfits) => self.misfits = misfits,
-        }
-        let mut fresh = form::form(telegram, &self.deviations);
-        keep_typed(&mut fresh.entries, &typed.entries);
-        self.form = fresh;
+        self.entries.remove(self.subject.telegram(), path, index);
     }
 }
 
@@ -267,61 +197,24 @@ impl Telegram for Asking {
 
 static UNIT: Spec = Spec::new("unit", "Unit or station").role(Role::Address).note("Whom the request is for.");
 
-/// The entry at `path`.
-fn find<'a>(entries: &'a mut [Entry], path: &str) -> Option<&'a mut Entry> {
-    for entry in entries {
-        if entry.path == path {
-            return Some(entry);
-        }
-        let found = match &mut entry.content {
-            Content::List { items } => items.iter_mut().find_map(|item| find(item, path)),
-            Content::Group { entries } => find(entries, path),
-            _ => None,
-        };
-        if found.is_some() {
-            return found;
-        }
-    }
-    None
-}
-
-/// Puts what was typed into the entries of `fresh` that were there before.
-fn keep_typed(fresh: &mut [Entry], typed: &[Entry]) {
-    for entry in fresh {
-        let Some(before) = typed.iter().find(|before| std::ptr::eq(before.spec, entry.spec)) else {
-            continue;
-        };
-        match (&mut entry.content, &before.content) {
-            (Content::Number { text, .. }, Content::Number { text: typed, .. })
-            | (Content::Computed { text, .. }, Content::Computed { text: typed, .. })
-            | (Content::Bytes { text }, Content::Bytes { text: typed })
-            | (Content::Text { text }, Content::Text { text: typed })
-            | (Content::Extra { text }, Content::Extra { text: typed })
-            | (Content::Cut { text }, Content::Cut { text: typed }) => typed.clone_into(text),
-            (Content::List { items }, Content::List { items: typed }) => {
-                items.iter_mut().zip(typed).for_each(|(item, typed)| keep_typed(item, typed));
-            }
-            (Content::Group { entries }, Content::Group { entries: typed }) => keep_typed(entries, typed),
-            _ => {}
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::frame::PROTOCOLS;
-    use crate::tool::{PROFILES, offers};
+    use crate::tool::{Content, PROFILES, offers};
 
     fn editor(request: &[u8]) -> Editor {
         Editor::of(request, PROTOCOLS[0], Direction::Request, &Settings::default())
     }
 
-    fn text(editor: &mut Editor, path: &str) -> String {
-        match find(&mut editor.form.entries, path).map(|entry| entry.content.clone()) {
-            Some(Content::Number { text, .. } | Content::Computed { text, .. }) => text,
-            other => panic!("{path}: {other:?}"),
-        }
+    fn text(editor: &Editor, path: &str) -> String {
+        let mut found = None;
+        editor.entries.form.visit(&mut |entry| {
+            if let (true, Content::Number { text, .. }) = (entry.path == path, &entry.content) {
+                found = Some(text.clone());
+            }
+        });
+        found.expect(path)
     }
 
     #[test]
@@ -329,15 +222,15 @@ mod tests {
         let bytes = [0x01, 0x03, 0x00, 0xC8, 0x00, 0x03, 0x84, 0x35];
         let mut editor = editor(&bytes);
         editor.enter("start", "seven");
-        assert_eq!(text(&mut editor, "start"), "seven");
-        assert_eq!(editor.misfits()[0].path, "start");
+        assert_eq!(text(&editor, "start"), "seven");
+        assert_eq!(editor.entries.misfits[0].path, "start");
         assert_eq!(editor.bytes().unwrap(), bytes);
         // An entry beside it still counts, and what was typed wrong stays.
         editor.enter("unit", "0x02");
-        assert_eq!(text(&mut editor, "start"), "seven");
-        assert_eq!(text(&mut editor, "unit"), "0x02");
+        assert_eq!(text(&editor, "start"), "seven");
+        assert_eq!(text(&editor, "unit"), "0x02");
         editor.enter("start", "7");
-        assert!(editor.misfits().is_empty());
+        assert!(editor.entries.misfits.is_empty());
         assert_eq!(editor.bytes().unwrap()[..6], [0x02, 0x03, 0x00, 0x07, 0x00, 0x03]);
     }
 
@@ -348,7 +241,7 @@ mod tests {
         editor.add("values");
         editor.enter("values.2.value", "13");
         editor.remove("values", 0);
-        assert_eq!(text(&mut editor, "values.0.value"), "0x0C");
+        assert_eq!(text(&editor, "values.0.value"), "0x0C");
         assert_eq!(editor.bytes().unwrap()[4..11], [0, 2, 4, 0, 12, 0, 13]);
         editor.remove("values", 9);
         assert_eq!(editor.bytes().unwrap().len(), 13);
@@ -369,7 +262,7 @@ mod tests {
         let tcp = PROTOCOLS.iter().find(|protocol| protocol.key == "modbus-tcp").unwrap();
         editor.enter("start", "0xD7");
         editor.carry_by(tcp, &Settings::default()).unwrap();
-        assert_eq!(text(&mut editor, "start"), "0xD7");
+        assert_eq!(text(&editor, "start"), "0xD7");
         assert_eq!(editor.bytes().unwrap(), [0, 1, 0, 0, 0, 6, 7, 3, 0, 0xD7, 0, 3]);
         let channel = PROTOCOLS.iter().find(|protocol| protocol.key == "profibus-fdl").unwrap();
         assert!(editor.carry_by(channel, &Settings::default()).is_err());

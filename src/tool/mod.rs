@@ -5,12 +5,12 @@ pub mod copy;
 mod decode;
 mod detail;
 mod editor;
+mod entries;
 pub mod examples;
 mod explain;
 #[cfg(feature = "json")]
 pub mod json;
 mod offers;
-#[cfg(feature = "json")]
 pub mod settings;
 mod views;
 
@@ -24,6 +24,7 @@ pub use build::{build, replies};
 pub use decode::{Options, Report, Settings, Summary, Telegram, decode};
 pub use detail::Detail;
 pub use editor::Editor;
+pub use entries::Entries;
 pub use explain::Explanation;
 pub use offers::{Offer, offers};
 pub use views::{Kind, View, views};

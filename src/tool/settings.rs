@@ -1,147 +1,176 @@
-//! What a user set up in the devices, as a file: one JSON object, every key of which can be left out.
+//! What a user set up in the devices: entries of a form like those of a telegram, and a text of one
+//! `path = value` in each line for what is not as delivered.
 //!
-//! ```json
-//! {
-//!   "dialect": "keb-number-first",
-//!   "read_mapping": {"start": 0, "entries": ["00330101", "023B0102", "00000000"]},
-//!   "write_mapping": {"start": 0, "entries": ["00340101"]},
-//!   "process_output": [{"index": "2032", "sets": "01"}],
-//!   "process_input": [{"index": "2033", "sets": "01"}],
-//!   "configuration": "B7 A3 93",
-//!   "swap_channel": false,
-//!   "swap_process": false
-//! }
+//! ```text
+//! dialect = KEB: quantity before address
+//! read_mapping.entries = 1
+//! read_mapping.entries.0.entry = 00330101h
+//! process_output.words = 1
+//! process_output.words.0.index = 2034h
+//! process_output.words.0.sets = 01h
+//! profibus = swap process data
+//! inputs = 8
 //! ```
-//!
-//! Mapping entries, indices, sets and configuration bytes are hex.
 
-use serde::{Deserialize, Serialize};
+use super::{Entries, Settings};
+use crate::device::keb_f5::sets;
+use crate::device::{Entry, Mapping, ProcessWord, mapping_entry};
+use crate::field::{Bits, Format, Message, Name, Role, Spec};
+use crate::message;
+use crate::modbus::{DIALECTS, STANDARD};
+use crate::profibus::Layout;
+use crate::walk::{Deviations, Telegram, Walk, Walker};
 
-use super::Settings;
-use crate::device::{Entry, Mapping, ProcessWord};
-use crate::field::hex;
-use crate::modbus::DIALECTS;
-use crate::profibus::configuration;
-
-/// The file.
-#[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-struct File {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    dialect: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    read_mapping: Option<List>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    write_mapping: Option<List>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    process_output: Option<Vec<Word>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    process_input: Option<Vec<Word>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    configuration: Option<String>,
-    swap_channel: bool,
-    swap_process: bool,
-}
-
-#[derive(Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct List {
-    start: u16,
-    entries: Vec<String>,
-}
-
-#[derive(Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Word {
-    index: String,
-    sets: String,
-}
-
-/// Reads the file; the reason why it cannot be read is a sentence.
+/// Reads the text; the message says which line is not understood.
 ///
 /// ```
 /// use buslens::tool::settings::read;
 ///
-/// let settings = read(r#"{"read_mapping": {"start": 0, "entries": ["00330101"]}}"#).unwrap();
+/// let settings = read("read_mapping.entries = 1\nread_mapping.entries.0.entry = 0x00330101").unwrap();
 /// assert_eq!(settings.device.read_mapping.entries[0].parameter(), 0x33);
-/// assert!(read(r#"{"dialect": "none"}"#).unwrap_err().contains("keb-number-first"));
+/// assert!(read("colour = 1").unwrap_err().to_string().contains("colour"));
 /// ```
-pub fn read(text: &str) -> Result<Settings, String> {
-    let file: File = serde_json::from_str(text).map_err(|error| format!("these are no settings: {error}"))?;
-    let mut settings = Settings::default();
-    if let Some(key) = &file.dialect {
-        let known = DIALECTS.iter().copied().find(|dialect| dialect.key == key);
-        settings.frame.dialect = known.ok_or_else(|| {
-            let keys: Vec<&str> = DIALECTS.iter().map(|dialect| dialect.key).collect();
-            format!("there is no dialect “{key}”: there are {}", keys.join(", "))
+pub fn read(text: &str) -> Result<Settings, Message> {
+    let mut lines = Vec::new();
+    for (index, line) in text.lines().enumerate() {
+        let line = line.trim();
+        if line.is_empty() || line.starts_with('#') {
+            continue;
+        }
+        let (path, value) = line.split_once('=').ok_or_else(|| {
+            message!("line {n}, “{line}”, is not like “inputs = 8”", n = index + 1, line = line.to_owned())
         })?;
+        lines.push((path.trim(), value.trim()));
     }
-    for (list, mapping) in [
-        (file.read_mapping, &mut settings.device.read_mapping),
-        (file.write_mapping, &mut settings.device.write_mapping),
-    ] {
-        if let Some(list) = list {
-            let entries = list.entries.iter().map(|entry| number(entry, 8).map(|raw| Entry(raw as u32)));
-            *mapping = Mapping { start: list.start, entries: entries.collect::<Result<_, _>>()? };
-        }
+    let mut settings = Settings::default();
+    let mut entries = entries(&mut settings);
+    entries.enter_all(&mut settings, lines)?;
+    match entries.misfits.into_iter().next() {
+        None => Ok(settings),
+        Some(misfit) => Err(message!("{path}: {misfit}", path = misfit.path, misfit = misfit.message)),
     }
-    for (words, process) in [
-        (file.process_output, &mut settings.device.process_output),
-        (file.process_input, &mut settings.device.process_input),
-    ] {
-        if let Some(words) = words {
-            let word = |word: &Word| {
-                Ok(ProcessWord { index: number(&word.index, 4)? as u16, sets: number(&word.sets, 2)? as u8 })
-            };
-            *process = words.iter().map(word).collect::<Result<_, String>>()?;
-        }
-    }
-    if let Some(text) = &file.configuration {
-        let bytes = text.split_whitespace().map(|byte| number(byte, 2).map(|byte| byte as u8));
-        settings.frame.profibus.layout = configuration::layout(&bytes.collect::<Result<Vec<u8>, _>>()?);
-    }
-    settings.frame.profibus.swap_channel = file.swap_channel;
-    settings.frame.profibus.swap_process = file.swap_process;
-    Ok(settings)
 }
 
-/// The lists of `settings` as a file that [`read`] takes again, but for the configuration, of which
-/// only the resulting layout is known.
+/// The text of what is not as delivered; [`read`] takes it again.
 pub fn write(settings: &Settings) -> String {
-    let list = |mapping: &Mapping| {
-        let entry = |entry: &Entry| hex(&entry.0.to_be_bytes()).replace(' ', "");
-        (*mapping != Mapping::default())
-            .then(|| List { start: mapping.start, entries: mapping.entries.iter().map(entry).collect() })
-    };
-    let words = |words: &[ProcessWord]| {
-        let word = |word: &ProcessWord| Word {
-            index: hex(&word.index.to_be_bytes()).replace(' ', ""),
-            sets: hex(&[word.sets]),
-        };
-        Some(words.iter().map(word).collect())
-    };
-    let file = File {
-        dialect: Some(settings.frame.dialect.key.to_owned()),
-        read_mapping: list(&settings.device.read_mapping),
-        write_mapping: list(&settings.device.write_mapping),
-        process_output: words(&settings.device.process_output),
-        process_input: words(&settings.device.process_input),
-        configuration: None,
-        swap_channel: settings.frame.profibus.swap_channel,
-        swap_process: settings.frame.profibus.swap_process,
-    };
-    // Strings and numbers only: nothing of this can fail to be written.
-    serde_json::to_string_pretty(&file).unwrap_or_default()
+    changed(settings).into_iter().map(|(path, text)| format!("{path} = {text}\n")).collect()
 }
 
-/// A number of at most `digits` hex digits.
-fn number(text: &str, digits: usize) -> Result<u64, String> {
-    let fits = !text.is_empty() && text.len() <= digits && text.bytes().all(|byte| byte.is_ascii_hexdigit());
-    u64::from_str_radix(text, 16)
-        .ok()
-        .filter(|_| fits)
-        .ok_or_else(|| format!("“{text}” is not a hex number of at most {digits} digits"))
+/// Every entry that is not as delivered, as path and text.
+pub fn changed(settings: &Settings) -> Vec<(String, String)> {
+    let as_delivered = entries(&mut Settings::default());
+    entries(&mut settings.clone()).changed(&as_delivered)
 }
+
+/// The settings as a form.
+pub fn entries(settings: &mut Settings) -> Entries {
+    Entries::of(settings, Deviations::default())
+}
+
+impl Telegram for Settings {
+    fn walk(&mut self, w: &mut dyn Walker) -> Walk {
+        let mut dialect =
+            DIALECTS.iter().position(|it| std::ptr::eq(*it, self.frame.dialect)).unwrap_or(0) as u8;
+        w.u8(&DIALECT, &mut dialect)?;
+        self.frame.dialect = DIALECTS.get(usize::from(dialect)).copied().unwrap_or(&STANDARD);
+        mapping(w, &READ_MAPPING, &mut self.device.read_mapping)?;
+        mapping(w, &WRITE_MAPPING, &mut self.device.write_mapping)?;
+        process(w, &PROCESS_OUTPUT, &mut self.device.process_output)?;
+        process(w, &PROCESS_INPUT, &mut self.device.process_input)?;
+
+        let profibus = &mut self.frame.profibus;
+        let flags = [profibus.swap_process, profibus.swap_channel, !profibus.layout.channel];
+        let mut raw = flags.iter().rev().fold(0, |raw, flag| raw << 1 | u8::from(*flag));
+        w.u8(&PROFIBUS, &mut raw)?;
+        profibus.swap_process = raw & 1 != 0;
+        profibus.swap_channel = raw & 2 != 0;
+        let Layout { channel, outputs, inputs } = &mut profibus.layout;
+        *channel = raw & 4 == 0;
+        for (spec, size) in [(&OUTPUTS, outputs), (&INPUTS, inputs)] {
+            let mut bytes = u8::try_from(*size).unwrap_or(u8::MAX);
+            w.u8(spec, &mut bytes)?;
+            *size = bytes.into();
+        }
+        Ok(())
+    }
+}
+
+fn mapping(w: &mut dyn Walker, spec: &'static Spec, mapping: &mut Mapping) -> Walk {
+    w.within(spec, &mut |w| {
+        w.u16(&START, &mut mapping.start)?;
+        let count = w.announce(&COUNT, 1, mapping.entries.len(), 1)?;
+        w.list(&ENTRIES, &mut mapping.entries, count, Some(0), |w, Entry(raw)| w.u32(&ENTRY, raw))
+    })
+}
+
+fn process(w: &mut dyn Walker, spec: &'static Spec, words: &mut Vec<ProcessWord>) -> Walk {
+    w.within(spec, &mut |w| {
+        let count = w.announce(&COUNT, 1, words.len(), 1)?;
+        w.list(&WORDS, words, count, Some(1), |w, word| {
+            w.u16(&INDEX, &mut word.index)?;
+            w.u8(&SETS, &mut word.sets)
+        })
+    })
+}
+
+static DIALECT: Spec = Spec::new("dialect", "Layout of functions 100 and 101")
+    .names(&DIALECT_NAMES)
+    .note("The figures of the manual cannot be read for sure: what the device at hand speaks.")
+    .source("KEB COMBIVERT F5 Modbus operator, 3");
+static DIALECT_NAMES: [Name; 5] = {
+    let mut names = [const { Name { value: 0, label: "", note: "" } }; 5];
+    let mut at = 0;
+    while at < DIALECTS.len() {
+        names[at] = Name { value: at as u64, label: DIALECTS[at].label, note: DIALECTS[at].note };
+        at += 1;
+    }
+    names
+};
+
+static READ_MAPPING: Spec = Spec::new("read_mapping", "Mapping list for reading")
+    .note("What registers 0000h to 1FFFh give, from the start address on.")
+    .source("KEB COMBIVERT F5 Modbus operator, 2.2 and 2.3");
+static WRITE_MAPPING: Spec = Spec::new("write_mapping", "Mapping list for writing")
+    .note("What registers 0000h to 1FFFh take, from the start address on.")
+    .source("KEB COMBIVERT F5 Modbus operator, 2.2 and 2.3");
+static START: Spec = Spec::new("start", "Start address").role(Role::Address).format(Format::HexAddress);
+static COUNT: Spec = Spec::new("count", "Number").role(Role::Count);
+static ENTRIES: Spec = Spec::new("entries", "Entries");
+static ENTRY: Spec = mapping_entry("entry", "Entry");
+
+static PROCESS_OUTPUT: Spec = Spec::new("process_output", "Process output data")
+    .note("What the words to the device carry; as delivered control word and set speed.")
+    .source("KEB COMBIVERT F5 PROFIBUS-DP operator, 8.1");
+static PROCESS_INPUT: Spec = Spec::new("process_input", "Process input data")
+    .note("What the words from the device carry; as delivered status word and actual speed.")
+    .source("KEB COMBIVERT F5 PROFIBUS-DP operator, 8.1");
+static WORDS: Spec = Spec::new("words", "Words");
+static INDEX: Spec = Spec::new("index", "Index")
+    .role(Role::Address)
+    .format(Format::Hex)
+    .note("The parameter; 0 for the second word of a 32-bit value.");
+static SETS: Spec = Spec::new("sets", "Sets").role(Role::Address).bits(&SET_BITS);
+static SET_BITS: [Bits; 8] = sets(0);
+
+static PROFIBUS: Spec = Spec::new("profibus", "PROFIBUS")
+    .bits(&[
+        Bits::flag(0, "swap_process", "swap process data")
+            .note("ValueSwapping bit 0: process data come low byte first."),
+        Bits::flag(1, "swap_channel", "swap parameter channel").note(
+            "ValueSwapping bit 1: index and 4-byte value of the parameter channel come low byte first.",
+        ),
+        Bits::flag(2, "no_channel", "no parameter channel")
+            .note("The configuration has no module for the parameter channel."),
+    ])
+    .source("KEB COMBIVERT F5 PROFIBUS-DP operator, 7.2");
+static OUTPUTS: Spec = Spec::new("outputs", "Process output bytes")
+    .role(Role::Count)
+    .limits(0, 16)
+    .note("Process data to the device, by its configuration.");
+static INPUTS: Spec = Spec::new("inputs", "Process input bytes")
+    .role(Role::Count)
+    .limits(0, 16)
+    .note("Process data from the device, by its configuration.");
 
 #[cfg(test)]
 mod tests {
@@ -150,8 +179,10 @@ mod tests {
     #[test]
     fn settings_are_written_and_read_again() {
         let mut settings = Settings::default();
+        assert_eq!(write(&settings), "", "nothing is to be said of what is as delivered");
         settings.frame.dialect = DIALECTS[1];
         settings.frame.profibus.swap_process = true;
+        settings.frame.profibus.layout = Layout { channel: false, outputs: 2, inputs: 8 };
         settings.device.read_mapping = Mapping { start: 16, entries: vec![Entry(0x0033_0101), Entry(0)] };
         settings.device.process_output = vec![ProcessWord { index: 0x2034, sets: 3 }];
         let again = read(&write(&settings)).unwrap();
@@ -163,13 +194,15 @@ mod tests {
     #[test]
     fn what_does_not_fit_is_said() {
         for (text, part) in [
-            ("{", "no settings"),
-            (r#"{"colour": 1}"#, "colour"),
-            (r#"{"read_mapping": {"start": 0, "entries": ["123456789"]}}"#, "123456789"),
-            (r#"{"process_input": [{"index": "20z3", "sets": "01"}]}"#, "20z3"),
-            (r#"{"configuration": "B7 A3 9333"}"#, "9333"),
+            ("inputs 8", "line 1"),
+            ("# a remark\n\ncolour = 1", "colour"),
+            ("dialect = french", "french"),
+            ("read_mapping.entries = 1\nread_mapping.entries.0.entry = 0x123456789", "0x123456789"),
+            ("read_mapping.entries = 60000", "60000"),
+            ("read_mapping.entries.0.entry = 1", "read_mapping.entries.0.entry"),
+            ("process_input.words.0.index = 20z3h", "20z3h"),
         ] {
-            let said = read(text).expect_err(text);
+            let said = read(text).map(|settings| write(&settings)).expect_err(text).to_string();
             assert!(said.contains(part), "{text}: {said}");
         }
     }

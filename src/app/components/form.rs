@@ -52,7 +52,7 @@ pub fn hear(making: Making, state: State, kind: &str, event: &Event) {
 
 /// Brings fields that stay in the page up to what the form says, and says beside them what does not fit.
 fn refresh(editor: &Editor) {
-    editor.form().visit(&mut |entry| {
+    editor.entries().form.visit(&mut |entry| {
         let path = &entry.path;
         let field = |part: &str| format!("{path}{part}");
         match &entry.content {
@@ -71,7 +71,7 @@ fn refresh(editor: &Editor) {
             }
             _ => {}
         }
-        let misfit = editor.misfits().iter().find(|misfit| misfit.path == *path);
+        let misfit = editor.entries().misfits.iter().find(|misfit| misfit.path == *path);
         let said = misfit.map_or(String::new(), |misfit| misfit.message.sentence());
         browser::set_text(&field("!"), &said);
     });
@@ -81,7 +81,7 @@ fn form(made: &Made) -> Markup {
     let Some(editor) = &made.editor else { return html! {} };
     html! {
         h2 { @if let Some(offer) = made.chosen { (offer.label().sentence()) } }
-        (entries(&editor.form().entries))
+        (entries(&editor.entries().form.entries))
         @if editor.is_task() {
             button.quiet type="button" data-open="" { "Edit every field of it" }
         }
