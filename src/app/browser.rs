@@ -4,11 +4,14 @@ use std::cell::RefCell;
 
 use gloo_timers::callback::Timeout;
 use leptos::prelude::*;
+use leptos::task::spawn_local;
 use wasm_bindgen::JsCast;
 use wasm_bindgen::closure::Closure;
+use wasm_bindgen_futures::JsFuture;
+use web_sys::js_sys::Array;
 use web_sys::{
-    Element, Event, EventInit, FocusEvent, HtmlDocument, HtmlElement, HtmlInputElement, HtmlSelectElement,
-    HtmlTextAreaElement, KeyboardEvent,
+    Blob, Element, Event, FocusEvent, HtmlAnchorElement, HtmlDocument, HtmlElement, HtmlInputElement,
+    HtmlSelectElement, HtmlTextAreaElement, KeyboardEvent, Url,
 };
 
 use crate::field::Span;
@@ -51,6 +54,12 @@ pub fn listen(hear: impl Fn(&Event) + 'static) {
     }
 }
 
+/// Calls `hear` with an event of the window that no element has.
+pub fn on_window(kind: &str, hear: impl Fn() + 'static) {
+    let hear = Closure::<dyn Fn()>::new(hear).into_js_value().unchecked_into();
+    let _ = window().add_event_listener_with_callback(kind, &hear);
+}
+
 /// Keeps what belongs to the element `id` in the browser, where the browser allows that.
 pub fn remember(id: &str, value: &str) {
     if let Ok(Some(storage)) = window().local_storage() {
@@ -76,6 +85,34 @@ pub fn copy(text: &str) {
     } else {
         // A browser that forbids it shows that itself.
         let _ = clipboard.write_text(text);
+    }
+}
+
+/// Gives `text` to the browser as a file to keep.
+pub fn download(name: &str, text: &str) {
+    let blob = Blob::new_with_str_sequence(&Array::of1(&text.into()));
+    let Ok(address) = blob.and_then(|blob| Url::create_object_url_with_blob(&blob)) else { return };
+    if let Ok(link) = document().create_element("a") {
+        let link: HtmlAnchorElement = link.unchecked_into();
+        link.set_href(&address);
+        link.set_download(name);
+        link.click();
+    }
+    let _ = Url::revoke_object_url(&address);
+}
+
+/// Reads the file that was chosen in the field of the event, and calls `then` with its name and text.
+pub fn read_file(event: &Event, then: impl FnOnce(String, String) + 'static) {
+    let field = event.target().and_then(|target| target.dyn_into::<HtmlInputElement>().ok());
+    let Some(field) = field else { return };
+    let file = field.files().and_then(|files| files.get(0));
+    if let Some(file) = file {
+        spawn_local(async move {
+            let text = JsFuture::from(file.text()).await.ok().and_then(|text| text.as_string());
+            then(file.name(), text.unwrap_or_default());
+            // The same file can be chosen again.
+            field.set_value("");
+        });
     }
 }
 
@@ -126,6 +163,7 @@ pub fn replace_undoably(id: &str, text: &str) {
 
 thread_local! {
     static WAITING: RefCell<Option<Timeout>> = const { RefCell::new(None) };
+    static SHOWING: RefCell<Option<Timeout>> = const { RefCell::new(None) };
 }
 
 /// Tells `text` to those who do not see the page, once there is a pause.
@@ -138,6 +176,19 @@ pub fn announce(text: String) {
     };
     // What waited before is dropped, and so never told.
     WAITING.with_borrow_mut(|waiting| *waiting = Some(Timeout::new(PAUSE, tell)));
+}
+
+/// Says `text` to everybody, for some seconds.
+pub fn say(text: &str) {
+    const SECONDS: u32 = 8_000;
+    let show = |text: &str| {
+        if let Some(note) = element::<Element>("said") {
+            note.set_text_content(Some(text));
+        }
+    };
+    show(text);
+    let hide = Timeout::new(SECONDS, move || show(""));
+    SHOWING.with_borrow_mut(|showing| *showing = Some(hide));
 }
 
 /// The id of the element that an event is of.
@@ -170,6 +221,8 @@ pub fn checked(event: &Event) -> Option<bool> {
 pub fn set_field(id: &str, value: &str) {
     if let Some(list) = element::<HtmlSelectElement>(id) {
         list.set_value(value);
+    } else if let Some(area) = element::<HtmlTextAreaElement>(id) {
+        area.set_value(value);
     } else if let Some(field) = element::<HtmlInputElement>(id) {
         if field.type_() == "checkbox" {
             field.set_checked(value == "1");
@@ -183,34 +236,6 @@ pub fn set_field(id: &str, value: &str) {
 pub fn set_text(id: &str, text: &str) {
     if let Some(element) = element::<Element>(id) {
         element.set_text_content(Some(text));
-    }
-}
-
-/// Chooses `value` in the list with this id, and keeps it for the next visit.
-pub fn set_value(id: &str, value: &str) {
-    remember(id, value);
-    if let Some(list) = element::<HtmlSelectElement>(id) {
-        list.set_value(value);
-    }
-}
-
-/// Brings back what was typed and chosen before a reload, or before the tab was lost. The page
-/// hears of it like of any other input.
-pub fn bring_back() {
-    for (id, event) in [(INPUT, "input"), (PROTOCOL, "change"), (DIRECTION, "change"), (DEVICE, "change")] {
-        let Some(kept) = remembered(id).filter(|kept| !kept.is_empty()) else { continue };
-        if let Some(area) = element::<HtmlTextAreaElement>(id) {
-            area.set_value(&kept);
-        } else if let Some(list) = element::<HtmlSelectElement>(id) {
-            list.set_value(&kept);
-        }
-        let heard = EventInit::new();
-        heard.set_bubbles(true);
-        if let (Some(element), Ok(event)) =
-            (element::<Element>(id), Event::new_with_event_init_dict(event, &heard))
-        {
-            let _ = element.dispatch_event(&event);
-        }
     }
 }
 

@@ -3,10 +3,13 @@
 
 use leptos::prelude::*;
 
+use super::address::{self, Shows, Step};
 use super::browser;
+use super::components::form;
 use super::state::State;
 use crate::field::{Message, hex};
-use crate::tool::{Content, Editor, Offer, Options, PROTOCOLS, Profile, Protocol, offers};
+use crate::tool::link::Link;
+use crate::tool::{Editor, Offer, Options, PROTOCOLS, Profile, Protocol, offers};
 
 /// The page's state, as handed to every part of it.
 #[derive(Clone, Copy)]
@@ -18,13 +21,12 @@ pub struct Making {
     pub shape: RwSignal<usize>,
 }
 
-/// What is built, and of what it was chosen.
+/// What is built, and what else can be.
 pub struct Made {
     pub device: Option<&'static Profile>,
     pub protocol: &'static Protocol,
     /// What was typed to find something.
     pub find: String,
-    pub chosen: Option<Offer>,
     pub editor: Option<Editor>,
     /// Why there are no bytes.
     pub refused: Option<Message>,
@@ -32,14 +34,7 @@ pub struct Made {
 
 impl Default for Made {
     fn default() -> Self {
-        Self {
-            device: None,
-            protocol: PROTOCOLS[0],
-            find: String::new(),
-            chosen: None,
-            editor: None,
-            refused: None,
-        }
+        Self { device: None, protocol: PROTOCOLS[0], find: String::new(), editor: None, refused: None }
     }
 }
 
@@ -67,12 +62,6 @@ impl Making {
         self.made.with_untracked(look)
     }
 
-    /// Opens what the address asks for, or the first thing that there is.
-    pub fn start(&self, state: State) {
-        browser::bring_back();
-        self.choose(state, 0);
-    }
-
     /// Types a part of the name of what is to be built.
     pub fn find(&self, typed: String) {
         self.made.update(|made| made.find = typed);
@@ -82,6 +71,7 @@ impl Making {
     pub fn ask_device(&self, state: State, device: Option<&'static Profile>) {
         self.made.update(|made| made.device = device);
         self.show(state);
+        address::renew(Step::Chosen);
     }
 
     /// Builds what is at `index` of the list.
@@ -97,11 +87,11 @@ impl Making {
             if let Some(editor) = opened {
                 made.protocol = editor.protocol;
                 made.editor = Some(editor);
-                made.chosen = Some(offer);
             }
         });
         self.reshape();
         self.show(state);
+        address::renew(Step::Chosen);
     }
 
     /// Lets another protocol carry it.
@@ -118,6 +108,7 @@ impl Making {
         });
         self.reshape();
         self.show(state);
+        address::renew(Step::Chosen);
     }
 
     /// Makes every field an entry of the form.
@@ -129,6 +120,7 @@ impl Making {
         });
         self.reshape();
         self.show(state);
+        address::renew(Step::Chosen);
     }
 
     /// Changes the form.
@@ -136,15 +128,19 @@ impl Making {
         let mut other = false;
         self.made.update_untracked(|made| {
             if let Some(editor) = &mut made.editor {
-                let before = shape(editor);
+                let before = form::shape(editor.entries());
                 edit(editor);
-                other = shape(editor) != before;
+                other = form::shape(editor.entries()) != before;
+                if !other {
+                    form::refresh(editor.entries());
+                }
             }
         });
         if other {
             self.reshape();
         }
         self.show(state);
+        address::renew(Step::Typed);
     }
 
     fn reshape(&self) {
@@ -153,7 +149,8 @@ impl Making {
 
     /// Shows the telegram as Decode would.
     fn show(&self, state: State) {
-        browser::set_value(browser::PROTOCOL, self.now(|made| made.protocol.key));
+        browser::set_field(browser::PROTOCOL, self.now(|made| made.protocol.key));
+        browser::set_field(browser::DEVICE, self.now(|made| made.device.map_or("", |it| it.key)));
         let mut text = None;
         let mut options = Options::default();
         self.made.update_untracked(|made| {
@@ -174,15 +171,39 @@ impl Making {
     }
 }
 
-/// Which entries a form has: when that changes, its fields are made anew.
-fn shape(editor: &Editor) -> String {
-    let mut shape = String::new();
-    editor.entries().form.visit(&mut |entry| {
-        shape.push_str(&entry.path);
-        if let Content::Choice { raw, .. } = entry.content {
-            shape.push_str(&raw.to_string());
+/// Build with what is shown of it.
+impl Shows for (Making, State) {
+    fn key(&self) -> &'static str {
+        "build"
+    }
+
+    fn link(&self) -> Link {
+        let (making, state) = self;
+        let mut link = Link::default();
+        making.made.update_untracked(|made| {
+            if let Some(editor) = &mut made.editor {
+                link = editor.link(&state.settings());
+            }
+            link.options.device = made.device.or(link.options.device);
+        });
+        link
+    }
+
+    fn follow(&self, link: Link) {
+        let (making, state) = self;
+        state.set_up(link.options.settings.clone());
+        making.made.update(|made| {
+            made.device = link.options.device;
+            made.editor = Editor::follow(&link);
+            if let Some(editor) = &made.editor {
+                made.protocol = editor.protocol;
+            }
+        });
+        if making.now(|made| made.editor.is_none()) {
+            making.choose(*state, 0);
+        } else {
+            making.reshape();
+            making.show(*state);
         }
-        shape.push(' ');
-    });
-    shape
+    }
 }

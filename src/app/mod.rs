@@ -1,17 +1,20 @@
 //! The page. It shows what [`tool`](crate::tool) makes of the input, and knows no protocol.
 //!
-//! - `state`: what is read, and `making`: what is built, as signals;
-//! - `browser`: what the browser is asked for;
+//! - `state`: what is read, `making`: what is built, and `setup`: how devices are set up, as signals;
+//! - `browser`: what the browser is asked for; `address`: what a link and a reload bring back;
 //! - `pages`: the views; `components`: their parts.
 
+mod address;
 mod browser;
 mod components;
 mod making;
 mod pages;
+mod setup;
 mod state;
 
 use leptos::prelude::*;
 use making::Making;
+use setup::Setup;
 use state::State;
 
 /// Starts the page that reads telegrams.
@@ -20,7 +23,7 @@ pub fn decode() {
     let state = State::new();
     browser::listen(move |event| pages::decode::hear(state, event));
     mount_to_body(move || view! { <pages::decode::Decode state /> });
-    browser::bring_back();
+    address::keep(state);
 }
 
 /// Starts the page that builds telegrams.
@@ -30,5 +33,13 @@ pub fn build() {
     let making = Making::new();
     browser::listen(move |event| pages::build::hear(making, state, event));
     mount_to_body(move || view! { <pages::build::Build making state /> });
-    making.start(state);
+    address::keep((making, state));
+}
+
+/// Starts the page that says how devices are set up.
+pub fn devices() {
+    browser::tell_of_panics();
+    let setup = Setup::new();
+    browser::listen(move |event| pages::devices::hear(setup, event));
+    mount_to_body(move || view! { <pages::devices::Devices setup /> });
 }

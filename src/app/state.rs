@@ -3,8 +3,10 @@
 
 use leptos::prelude::*;
 
+use super::address::{self, Shows, Step};
 use super::browser;
 use crate::field::{Direction, Field, Span, leaves};
+use crate::tool::link::Link;
 use crate::tool::{Detail, Options, Report, Settings, Summary, Telegram, decode};
 
 /// The page's state, as handed to every part of it.
@@ -102,10 +104,7 @@ impl State {
             decoded.decode();
             decoded.show(telegram_at(&decoded.report, cursor).unwrap_or(decoded.index()));
         });
-        self.decoded.with_untracked(|decoded| {
-            let kept = if decoded.text.len() <= LONGEST_KEPT { &decoded.text } else { "" };
-            browser::remember(browser::INPUT, kept);
-        });
+        address::renew(Step::Typed);
         browser::announce(announcement(self.decoded.with_untracked(|decoded| decoded.report.summary())));
     }
 
@@ -131,6 +130,11 @@ impl State {
         self.decoded.with_untracked(|decoded| decoded.options.settings.clone())
     }
 
+    /// The user's devices are set up in another way.
+    pub fn set_up(&self, settings: Settings) {
+        self.decoded.update_untracked(|decoded| decoded.options.settings = settings);
+    }
+
     /// The cursor moved in the input.
     pub fn follow_cursor(&self, cursor: usize) {
         if let Some(index) = self.decoded.with_untracked(|decoded| telegram_at(&decoded.report, cursor)) {
@@ -146,17 +150,15 @@ impl State {
             decoded.show(decoded.index());
         });
         // An example or a click elsewhere may have chosen.
-        self.decoded.with_untracked(|Decoded { options, .. }| {
-            browser::set_value(browser::PROTOCOL, options.protocol.map_or("", |it| it.key));
-            browser::set_value(browser::DIRECTION, options.direction.map_or("", Direction::key));
-            browser::set_value(browser::DEVICE, options.device.map_or("", |it| it.key));
-        });
+        self.decoded.with_untracked(|decoded| show_options(&decoded.options));
+        address::renew(Step::Chosen);
     }
 
     /// Shows another telegram.
     pub fn select(&self, index: usize) {
         if index != self.decoded.with_untracked(Decoded::index) {
             self.change(|decoded| decoded.show(index));
+            address::renew(Step::Chosen);
         }
     }
 
@@ -189,8 +191,36 @@ impl State {
     }
 }
 
-/// Longer inputs are not kept for the next visit: browsers allow a few megabytes in all.
-const LONGEST_KEPT: usize = 500_000;
+impl Shows for State {
+    fn key(&self) -> &'static str {
+        "decode"
+    }
+
+    fn link(&self) -> Link {
+        self.decoded.with_untracked(|decoded| Link {
+            telegram: decoded.index(),
+            ..Link::to(decoded.text.clone(), decoded.options.clone())
+        })
+    }
+
+    fn follow(&self, link: Link) {
+        let Link { text, options, telegram, .. } = link;
+        browser::set_field(browser::INPUT, &text);
+        show_options(&options);
+        self.change(|decoded| {
+            (decoded.text, decoded.options) = (text, options);
+            decoded.decode();
+            decoded.show(telegram);
+        });
+    }
+}
+
+/// Chooses in the lists of the page how the input is read.
+fn show_options(options: &Options) {
+    browser::set_field(browser::PROTOCOL, options.protocol.map_or("", |it| it.key));
+    browser::set_field(browser::DIRECTION, options.direction.map_or("", Direction::key));
+    browser::set_field(browser::DEVICE, options.device.map_or("", |it| it.key));
+}
 
 /// The telegram at byte `cursor` of the text, or the next one.
 fn telegram_at(report: &Report, cursor: usize) -> Option<usize> {

@@ -1,9 +1,10 @@
 //! A telegram while it is made: its form, the bytes that follow from it, and what does not fit.
 
-use super::{Entries, Offer, Settings, build};
-use crate::device::Draft;
-use crate::field::{Argument, Direction, Message, Role, Spec};
-use crate::frame::{self, Cargo, Frame, Protocol};
+use super::link::Link;
+use super::{Change, Entries, Offer, Options, Settings, build, decode, offers};
+use crate::device::{Draft, Task};
+use crate::field::{Argument, Direction, Message, Role, Spec, hex};
+use crate::frame::{self, Cargo, Frame, PROTOCOLS, Protocol};
 use crate::message;
 use crate::modbus::Pdu;
 use crate::walk::{self, Deviations, Telegram, Walk, Walker};
@@ -11,12 +12,12 @@ use crate::walk::{self, Deviations, Telegram, Walk, Walker};
 /// A telegram, or what is to be asked of a device, with its [`Entries`].
 ///
 /// ```
-/// use buslens::tool::{Editor, PROTOCOLS, Settings};
+/// use buslens::tool::{Change, Editor, PROTOCOLS, Settings};
 /// use buslens::field::Direction;
 ///
 /// let request = [0x01, 0x03, 0x00, 0xC8, 0x00, 0x03, 0x84, 0x35];
 /// let mut editor = Editor::of(&request, PROTOCOLS[0], Direction::Request, &Settings::default());
-/// editor.enter("start", "0xD7");
+/// editor.edit("start", Change::Enter("0xD7"));
 /// assert_eq!(editor.bytes().unwrap(), [0x01, 0x03, 0x00, 0xD7, 0x00, 0x03, 0xB5, 0xF3]);
 /// ```
 pub struct Editor {
@@ -37,6 +38,7 @@ enum Subject {
 /// A task for one unit.
 struct Asking {
     unit: u8,
+    task: Task,
     draft: Draft,
 }
 
@@ -62,7 +64,9 @@ impl Editor {
                 let body = (kind.new)(&settings.frame.profibus);
                 (kind.direction, Subject::Telegram(carried(Cargo::Profibus(kind, body))?))
             }
-            Offer::Task(task) => (Direction::Request, Subject::Task(Asking { unit, draft: task.draft() })),
+            Offer::Task(task) => {
+                (Direction::Request, Subject::Task(Asking { unit, task, draft: task.draft() }))
+            }
         };
         Ok(Self::with(subject, Deviations::default(), protocol, direction))
     }
@@ -72,6 +76,50 @@ impl Editor {
         let mut frame = (protocol.expect)(bytes, direction, &settings.frame);
         let deviations = walk::read(frame.as_mut(), bytes).deviations(frame.as_mut());
         Self::with(Subject::Telegram(frame), deviations, protocol, direction)
+    }
+
+    /// What a [link](Self::link) leads to; `None` if it names neither telegram nor task.
+    pub fn follow(link: &Link) -> Option<Self> {
+        let Options { protocol, device, settings, .. } = &link.options;
+        let mut editor = match &link.task {
+            Some(task) => {
+                let offer = offers(*device).into_iter().find(|offer| offer.label().to_string() == *task)?;
+                let protocols = protocol.iter().chain(PROTOCOLS);
+                protocols.filter_map(|protocol| Self::new(offer, 1, protocol, settings).ok()).next()?
+            }
+            None => {
+                let report = decode(&link.text, link.options.clone());
+                let telegram = report.telegrams.first()?;
+                let direction = telegram.guess.direction;
+                Self::of(&telegram.line.bytes, telegram.choice.protocol, direction, settings)
+            }
+        };
+        // A link of another version may name entries that there are none of: the others count.
+        link.entries.iter().for_each(|(path, text)| editor.edit(path, Change::Enter(text)));
+        Some(editor)
+    }
+
+    /// What leads here again, with what was typed as it was typed.
+    pub fn link(&mut self, settings: &Settings) -> Link {
+        let bytes = self.bytes().unwrap_or_default();
+        let (task, fresh) = match &self.subject {
+            Subject::Task(Asking { task, .. }) => {
+                (Some(*task), Self::new(Offer::Task(*task), 1, self.protocol, settings).ok())
+            }
+            Subject::Telegram(_) => (None, Some(Self::of(&bytes, self.protocol, self.direction, settings))),
+        };
+        Link {
+            text: if task.is_some() { String::new() } else { hex(&bytes) },
+            options: Options {
+                protocol: Some(self.protocol),
+                direction: task.is_none().then_some(self.direction),
+                device: task.map(|task| task.profile),
+                settings: settings.clone(),
+            },
+            task: task.map(|task| task.label().to_string()),
+            entries: fresh.map_or(Vec::new(), |fresh| self.entries.changed(&fresh.entries)),
+            telegram: 0,
+        }
     }
 
     fn with(
@@ -147,10 +195,24 @@ impl Editor {
         Ok(())
     }
 
-    /// Whether the form is a request in the device's words, which has fewer entries than the telegram
-    /// has fields.
-    pub fn is_task(&self) -> bool {
-        matches!(self.subject, Subject::Task(_))
+    /// The request in the device's words, which has fewer entries than the telegram has fields.
+    pub fn task(&self) -> Option<&Task> {
+        match &self.subject {
+            Subject::Task(asking) => Some(&asking.task),
+            Subject::Telegram(_) => None,
+        }
+    }
+
+    /// What is edited, in the words of its [`Offer`].
+    pub fn label(&self) -> Message {
+        match &self.subject {
+            Subject::Task(asking) => asking.task.label(),
+            Subject::Telegram(frame) => match frame.content() {
+                frame::Content::Modbus { pdu, .. } => Offer::Telegram(pdu.kind).label(),
+                frame::Content::Profibus { kind, .. } => Offer::Service(kind).label(),
+                frame::Content::Nothing(spec) => Message::term(spec.label),
+            },
+        }
     }
 
     /// The telegram, if its every field is an entry.
@@ -161,21 +223,9 @@ impl Editor {
         }
     }
 
-    /// Types `text` into the entry at `path`; see [`Entries`] for this and what follows.
-    pub fn enter(&mut self, path: &str, text: &str) {
-        self.entries.enter(self.subject.telegram(), path, text);
-    }
-
-    pub fn set_bits(&mut self, path: &str, part: usize, value: u64) {
-        self.entries.set_bits(self.subject.telegram(), path, part, value);
-    }
-
-    pub fn add(&mut self, path: &str) {
-        self.entries.add(self.subject.telegram(), path);
-    }
-
-    pub fn remove(&mut self, path: &str, index: usize) {
-        self.entries.remove(self.subject.telegram(), path, index);
+    /// Changes the entry at `path`.
+    pub fn edit(&mut self, path: &str, change: Change) {
+        self.entries.edit(self.subject.telegram(), path, change);
     }
 }
 
@@ -200,8 +250,7 @@ static UNIT: Spec = Spec::new("unit", "Unit or station").role(Role::Address).not
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frame::PROTOCOLS;
-    use crate::tool::{Content, PROFILES, offers};
+    use crate::tool::{Content, PROFILES};
 
     fn editor(request: &[u8]) -> Editor {
         Editor::of(request, PROTOCOLS[0], Direction::Request, &Settings::default())
@@ -221,15 +270,15 @@ mod tests {
     fn what_does_not_fit_is_kept_and_said() {
         let bytes = [0x01, 0x03, 0x00, 0xC8, 0x00, 0x03, 0x84, 0x35];
         let mut editor = editor(&bytes);
-        editor.enter("start", "seven");
+        editor.edit("start", Change::Enter("seven"));
         assert_eq!(text(&editor, "start"), "seven");
         assert_eq!(editor.entries.misfits[0].path, "start");
         assert_eq!(editor.bytes().unwrap(), bytes);
         // An entry beside it still counts, and what was typed wrong stays.
-        editor.enter("unit", "0x02");
+        editor.edit("unit", Change::Enter("0x02"));
         assert_eq!(text(&editor, "start"), "seven");
         assert_eq!(text(&editor, "unit"), "0x02");
-        editor.enter("start", "7");
+        editor.edit("start", Change::Enter("7"));
         assert!(editor.entries.misfits.is_empty());
         assert_eq!(editor.bytes().unwrap()[..6], [0x02, 0x03, 0x00, 0x07, 0x00, 0x03]);
     }
@@ -237,22 +286,22 @@ mod tests {
     #[test]
     fn lists_grow_and_shrink_where_asked() {
         let mut editor = editor(&[1, 0x10, 0, 7, 0, 2, 4, 0, 10, 0, 11, 0, 0]);
-        editor.enter("values.1.value", "0x0C");
-        editor.add("values");
-        editor.enter("values.2.value", "13");
-        editor.remove("values", 0);
+        editor.edit("values.1.value", Change::Enter("0x0C"));
+        editor.edit("values", Change::Add);
+        editor.edit("values.2.value", Change::Enter("13"));
+        editor.edit("values", Change::Remove(0));
         assert_eq!(text(&editor, "values.0.value"), "0x0C");
         assert_eq!(editor.bytes().unwrap()[4..11], [0, 2, 4, 0, 12, 0, 13]);
-        editor.remove("values", 9);
+        editor.edit("values", Change::Remove(9));
         assert_eq!(editor.bytes().unwrap().len(), 13);
     }
 
     #[test]
     fn a_computed_number_can_be_overridden_and_given_back() {
         let mut editor = editor(&[1, 3, 0, 200, 0, 3, 0x84, 0x35]);
-        editor.enter("crc", "0");
+        editor.edit("crc", Change::Enter("0"));
         assert_eq!(editor.bytes().unwrap()[6..], [0, 0]);
-        editor.enter("crc", "");
+        editor.edit("crc", Change::Enter(""));
         assert_eq!(editor.bytes().unwrap()[6..], [0x84, 0x35]);
     }
 
@@ -260,13 +309,39 @@ mod tests {
     fn another_protocol_carries_what_was_typed() {
         let mut editor = editor(&[7, 3, 0, 200, 0, 3, 0, 0]);
         let tcp = PROTOCOLS.iter().find(|protocol| protocol.key == "modbus-tcp").unwrap();
-        editor.enter("start", "0xD7");
+        editor.edit("start", Change::Enter("0xD7"));
         editor.carry_by(tcp, &Settings::default()).unwrap();
         assert_eq!(text(&editor, "start"), "0xD7");
         assert_eq!(editor.bytes().unwrap(), [0, 1, 0, 0, 0, 6, 7, 3, 0, 0xD7, 0, 3]);
         let channel = PROTOCOLS.iter().find(|protocol| protocol.key == "profibus-fdl").unwrap();
         assert!(editor.carry_by(channel, &Settings::default()).is_err());
         assert_eq!(editor.protocol.key, "modbus-tcp");
+    }
+
+    /// A link brings back what was typed, right or wrong, and a telegram with its faults.
+    #[test]
+    fn a_link_leads_back() {
+        let settings = Settings::default();
+        let faulty = [0x01, 0x03, 0x06, 0x00, 0x08, 0x42, 0xA4, 0xF1, 0xDE, 0xB0, 0xF8, 0x00];
+        let mut editor = Editor::of(&faulty, PROTOCOLS[0], Direction::Response, &settings);
+        editor.edit("unit", Change::Enter("0x11"));
+        editor.edit("values.0.value", Change::Enter("seven"));
+        let link = Link::read(&editor.link(&settings).write());
+        let mut again = Editor::follow(&link).unwrap();
+        assert_eq!(again.bytes(), editor.bytes());
+        assert_eq!(text(&again, "unit"), "0x11");
+        assert_eq!(text(&again, "values.0.value"), "seven");
+        assert_eq!(again.entries.misfits, editor.entries.misfits);
+
+        let device = PROFILES.iter().copied().find(|profile| profile.key == "memograph-rsg45");
+        let offer = offers(device).into_iter().find(|offer| offer.fits("215 write")).unwrap();
+        let mut editor = Editor::new(offer, 5, PROTOCOLS[0], &settings).unwrap();
+        editor.edit("number", Change::Enter("6"));
+        editor.edit("content.value", Change::Enter("123.456"));
+        let link = Link::read(&editor.link(&settings).write());
+        let mut again = Editor::follow(&link).unwrap();
+        assert_eq!(again.bytes(), editor.bytes());
+        assert!(Editor::follow(&Link::default()).is_none());
     }
 
     /// Whatever is offered can be opened in at least one protocol, and what was made of it is read

@@ -14,66 +14,63 @@ pub struct Entries {
     pub misfits: Vec<Misfit>,
 }
 
+/// What a person does with an entry.
+#[derive(Clone, Copy, Debug)]
+pub enum Change<'a> {
+    /// Types a number, text or bytes; what to write instead of a computed number, or nothing for what is
+    /// computed; the number of a choice; how many items a list is to have.
+    Enter(&'a str),
+    /// Sets some bits of a number: part `part` of its spec.
+    Bits { part: usize, value: u64 },
+    /// Adds an item to the end of a list.
+    Add,
+    /// Takes an item from a list.
+    Remove(usize),
+}
+
+impl Change<'_> {
+    fn make(self, entry: &mut Entry) {
+        match (self, &mut entry.content) {
+            (
+                Self::Enter(typed),
+                Content::Number { text, .. }
+                | Content::Computed { text, .. }
+                | Content::Bytes { text }
+                | Content::Text { text }
+                | Content::Extra { text }
+                | Content::Cut { text },
+            ) => typed.clone_into(text),
+            (Self::Enter(typed), Content::Choice { raw, .. }) => {
+                *raw = form::parse_number(typed, 8).unwrap_or(*raw);
+            }
+            (Self::Enter(typed), Content::List { items }) => {
+                items.resize_with(length(typed).unwrap_or(items.len()), Vec::new);
+            }
+            (Self::Bits { part, value }, Content::Number { width, text }) => {
+                if let Some(part) = entry.spec.bits.get(part) {
+                    // What does not fit is no number to set bits of.
+                    let raw = form::parse_value(text, *width, entry.spec).unwrap_or(0);
+                    *text = number_text(part.put(raw, value), *width, entry.spec.format);
+                }
+            }
+            (Self::Add, Content::List { items }) if items.len() < MOST_ITEMS => items.push(Vec::new()),
+            (Self::Remove(index), Content::List { items }) if index < items.len() => {
+                items.remove(index);
+            }
+            _ => {}
+        }
+    }
+}
+
 impl Entries {
     pub fn of(telegram: &mut dyn Telegram, deviations: Deviations) -> Self {
         Self { form: form::form(telegram, &deviations), deviations, misfits: Vec::new() }
     }
 
-    /// Types `text` into the entry at `path`: a number, text or bytes, or what to write instead of a
-    /// computed number (nothing for what is computed). A choice takes a number, a list how many items it
-    /// is to have.
-    pub fn enter(&mut self, telegram: &mut dyn Telegram, path: &str, typed: &str) {
-        self.edit(telegram, path, |content| match content {
-            Content::Number { text, .. }
-            | Content::Computed { text, .. }
-            | Content::Bytes { text }
-            | Content::Text { text }
-            | Content::Extra { text }
-            | Content::Cut { text } => typed.clone_into(text),
-            Content::Choice { raw, .. } => *raw = form::parse_number(typed, 8).unwrap_or(*raw),
-            Content::List { items } => items.resize_with(length(typed).unwrap_or(items.len()), Vec::new),
-            Content::Group { .. } => {}
-        });
-    }
-
-    /// Sets some bits of the number at `path`: part `part` of its spec.
-    pub fn set_bits(&mut self, telegram: &mut dyn Telegram, path: &str, part: usize, value: u64) {
-        let Some(spec) = find(&mut self.form.entries, path).map(|entry| entry.spec) else { return };
-        let Some(part) = spec.bits.get(part) else { return };
-        self.edit(telegram, path, |content| {
-            if let Content::Number { width, text } = content {
-                // What does not fit is no number to set bits of.
-                let raw = form::parse_value(text, *width, spec).unwrap_or(0);
-                *text = number_text(part.put(raw, value), *width, spec.format);
-            }
-        });
-    }
-
-    /// Adds an item to the end of the list at `path`.
-    pub fn add(&mut self, telegram: &mut dyn Telegram, path: &str) {
-        self.edit(telegram, path, |content| {
-            if let Content::List { items } = content
-                && items.len() < MOST_ITEMS
-            {
-                items.push(Vec::new());
-            }
-        });
-    }
-
-    /// Takes item `index` from the list at `path`.
-    pub fn remove(&mut self, telegram: &mut dyn Telegram, path: &str, index: usize) {
-        self.edit(telegram, path, |content| {
-            if let Content::List { items } = content
-                && index < items.len()
-            {
-                items.remove(index);
-            }
-        });
-    }
-
-    fn edit(&mut self, telegram: &mut dyn Telegram, path: &str, change: impl FnOnce(&mut Content)) {
+    /// Changes the entry at `path`, if it is one of such a kind.
+    pub fn edit(&mut self, telegram: &mut dyn Telegram, path: &str, change: Change) {
         let Some(entry) = find(&mut self.form.entries, path) else { return };
-        change(&mut entry.content);
+        change.make(entry);
         let typed = self.form.clone();
         self.take(telegram, &typed);
     }
@@ -116,7 +113,7 @@ impl Entries {
                 Some(Content::List { .. }) => drop(length(text)?),
                 Some(_) => {}
             }
-            self.enter(telegram, path, text);
+            self.edit(telegram, path, Change::Enter(text));
         }
         Ok(())
     }

@@ -10,6 +10,7 @@ pub mod examples;
 mod explain;
 #[cfg(feature = "json")]
 pub mod json;
+pub mod link;
 mod offers;
 pub mod settings;
 mod views;
@@ -24,7 +25,7 @@ pub use build::{build, replies};
 pub use decode::{Options, Report, Settings, Summary, Telegram, decode};
 pub use detail::Detail;
 pub use editor::Editor;
-pub use entries::Entries;
+pub use entries::{Change, Entries};
 pub use explain::Explanation;
 pub use offers::{Offer, offers};
 pub use views::{Kind, View, views};

@@ -19,7 +19,7 @@ use crate::field::{Bits, Format, Message, Name, Role, Spec};
 use crate::message;
 use crate::modbus::{DIALECTS, STANDARD};
 use crate::profibus::Layout;
-use crate::walk::{Deviations, Telegram, Walk, Walker};
+use crate::walk::{self, Deviations, Telegram, Walk, Walker};
 
 /// Reads the text; the message says which line is not understood.
 ///
@@ -54,6 +54,20 @@ pub fn read(text: &str) -> Result<Settings, Message> {
 /// The text of what is not as delivered; [`read`] takes it again.
 pub fn write(settings: &Settings) -> String {
     changed(settings).into_iter().map(|(path, text)| format!("{path} = {text}\n")).collect()
+}
+
+/// The settings as bytes, which take less room than the text; nothing if they are as delivered.
+pub fn to_bytes(settings: &Settings) -> Vec<u8> {
+    let bytes = |settings: &Settings| walk::write(&mut settings.clone(), &Deviations::default());
+    let written = bytes(settings);
+    if written == bytes(&Settings::default()) { Vec::new() } else { written }
+}
+
+/// The settings that [`to_bytes`] wrote; what the bytes do not tell is as delivered.
+pub fn from_bytes(bytes: &[u8]) -> Settings {
+    let mut settings = Settings::default();
+    walk::read(&mut settings, bytes);
+    settings
 }
 
 /// Every entry that is not as delivered, as path and text.
@@ -185,10 +199,20 @@ mod tests {
         settings.frame.profibus.layout = Layout { channel: false, outputs: 2, inputs: 8 };
         settings.device.read_mapping = Mapping { start: 16, entries: vec![Entry(0x0033_0101), Entry(0)] };
         settings.device.process_output = vec![ProcessWord { index: 0x2034, sets: 3 }];
-        let again = read(&write(&settings)).unwrap();
-        assert_eq!(again.device, settings.device);
-        assert_eq!(again.frame.profibus, settings.frame.profibus);
-        assert_eq!(again.frame.dialect.key, settings.frame.dialect.key);
+        for again in [read(&write(&settings)).unwrap(), from_bytes(&to_bytes(&settings))] {
+            assert_eq!(again.device, settings.device);
+            assert_eq!(again.frame.profibus, settings.frame.profibus);
+            assert_eq!(again.frame.dialect.key, settings.frame.dialect.key);
+        }
+    }
+
+    #[test]
+    fn bytes_that_end_early_leave_the_rest_as_delivered() {
+        assert!(to_bytes(&Settings::default()).is_empty());
+        assert!(to_bytes(&from_bytes(&[])).is_empty());
+        let settings = from_bytes(&[1, 0, 16]);
+        assert_eq!((settings.frame.dialect.key, settings.device.read_mapping.start), (DIALECTS[1].key, 16));
+        assert_eq!(settings.device.process_input, Settings::default().device.process_input);
     }
 
     #[test]

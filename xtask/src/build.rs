@@ -21,8 +21,11 @@ struct Module {
 
 /// The page's documents, each with a wasm file of its own: who reads telegrams need not wait for the
 /// forms that build them. The first is `index.html`.
-const MODULES: &[Module] =
-    &[Module { name: "decode", binary: "decode-page" }, Module { name: "build", binary: "build-page" }];
+const MODULES: &[Module] = &[
+    Module { name: "decode", binary: "decode-page" },
+    Module { name: "build", binary: "build-page" },
+    Module { name: "devices", binary: "devices-page" },
+];
 
 pub fn run() -> Result {
     let start = Instant::now();

@@ -4,45 +4,51 @@ use leptos::prelude::*;
 use maud::{Markup, html};
 use web_sys::{Element, Event};
 
-use super::{check, examples, fields, layout, strip, views};
+use super::{Drawn, check, drawn, examples, fields, layout, strip, views};
 use crate::app::browser::{self, DETAIL};
 use crate::app::state::{Decoded, Shown, State};
 use crate::field::{Message, Severity, hex};
-use crate::tool::{Certainty, PROTOCOLS};
+use crate::tool::link::Link;
+use crate::tool::{Certainty, Options, PROTOCOLS};
+
+/// The other view that shows the same telegram.
+#[derive(Clone, Copy)]
+pub struct Other {
+    pub document: &'static str,
+    pub label: &'static str,
+}
 
 #[component]
-pub fn Telegram(state: State) -> impl IntoView {
-    let reading = move || {
-        let markup = state.decoded.with(|decoded| match &decoded.shown {
-            Some(shown) => reading(shown, decoded.options.device.map_or("", |device| device.label)),
+pub fn Telegram(state: State, other: Other) -> impl IntoView {
+    let reading = drawn(move || {
+        state.decoded.with(|decoded| match &decoded.shown {
+            Some(shown) => reading(shown, decoded, &other),
             None => welcome(),
-        });
-        markup.into_string()
-    };
-    let layout = move || {
-        let layout = |decoded: &Decoded| {
-            let shown = decoded.shown.as_ref()?;
-            Some(layout::layout(&shown.detail, &decoded.report.layout(shown.index)))
-        };
-        state.decoded.with(layout).map(Markup::into_string).unwrap_or_default()
-    };
-    let registers = move || {
+        })
+    });
+    let layout = drawn(move || {
+        state.decoded.with(|decoded| match &decoded.shown {
+            Some(shown) => layout::layout(&shown.detail, &decoded.report.layout(shown.index)),
+            None => html! {},
+        })
+    });
+    let registers = drawn(move || {
         let chosen = state.light.get().chosen();
-        let views = |decoded: &Decoded| decoded.shown.as_ref().map(|shown| views::chosen(shown, chosen));
-        state.decoded.with(views).map(Markup::into_string).unwrap_or_default()
-    };
+        state.decoded.with(|decoded| match &decoded.shown {
+            Some(shown) => views::chosen(shown, chosen),
+            None => html! {},
+        })
+    });
+    let no_registers: Drawn<bool> = Box::new(move || state.decoded.with(|decoded| !has_registers(decoded)));
+    let nothing: Drawn<bool> = Box::new(move || state.decoded.with(|decoded| decoded.shown.is_none()));
     view! {
         <section id=DETAIL class="card detail" aria-label="Telegram">
             <div inner_html=reading></div>
-            <details
-                id="views"
-                class="layout"
-                hidden=move || state.decoded.with(|decoded| !has_registers(decoded))
-            >
+            <details id="views" class="layout" hidden=no_registers>
                 <summary>"Registers in every view"</summary>
                 <div inner_html=registers></div>
             </details>
-            <details id="layout" class="layout" hidden=move || state.decoded.with(|decoded| decoded.shown.is_none())>
+            <details id="layout" class="layout" hidden=nothing>
                 <summary>"How such a telegram is made"</summary>
                 <div inner_html=layout></div>
             </details>
@@ -146,7 +152,11 @@ fn welcome() -> Markup {
     }
 }
 
-fn reading(shown: &Shown, device: &str) -> Markup {
+fn reading(shown: &Shown, decoded: &Decoded, other: &Other) -> Markup {
+    let device = decoded.options.device.map_or("", |device| device.label);
+    let elsewhere = html! {
+        a.quiet href={ (other.document) "#" (link(shown, decoded)) } { (other.label) }
+    };
     let telegram = &shown.telegram;
     let direction = match telegram.guess.certainty {
         Certainty::Open => "telegram",
@@ -185,13 +195,27 @@ fn reading(shown: &Shown, device: &str) -> Markup {
         (problems(shown))
         div.bar {
             p.count { (Message::bytes(shown.bytes().len())) }
-            button.quiet type="button" data-copy=(hex(shown.bytes())) { "Copy as hex" }
+            div.actions {
+                (elsewhere)
+                button.quiet type="button" data-copy=(hex(shown.bytes())) { "Copy as hex" }
+            }
         }
         (strip::strip(shown))
         (fields::device(shown, device))
         (fields::fields(shown))
         (check::check(shown))
     }
+}
+
+/// The telegram by itself, read as it is here.
+fn link(shown: &Shown, decoded: &Decoded) -> String {
+    let direction = shown.telegram.guess.direction;
+    let options = Options {
+        protocol: Some(shown.telegram.choice.protocol),
+        direction: Some(direction),
+        ..decoded.options.clone()
+    };
+    Link::to(hex(shown.bytes()), options).write()
 }
 
 fn problems(shown: &Shown) -> Markup {

@@ -4,15 +4,16 @@ use leptos::prelude::*;
 use maud::{Markup, html};
 use web_sys::Event;
 
+use super::drawn;
 use super::settings::list;
 use crate::app::browser::{self, DEVICE, PROTOCOL};
 use crate::app::making::{Made, Making};
 use crate::app::state::{State, count};
-use crate::tool::{PROFILES, PROTOCOLS};
+use crate::tool::{Editor, PROFILES, PROTOCOLS};
 
 #[component]
 pub fn Finder(making: Making) -> impl IntoView {
-    let found = move || making.with(|made| found(made).into_string());
+    let found = drawn(move || making.with(found));
     view! {
         <section class="card finder" aria-label="What to build">
             <div inner_html=content().into_string()></div>
@@ -65,7 +66,7 @@ fn found(made: &Made) -> Markup {
     /// More are not read by anybody: a letter more finds fewer.
     const SHOWN: usize = 100;
     let offers = made.offers();
-    let chosen = made.chosen.map(|offer| offer.label());
+    let chosen = made.editor.as_ref().map(Editor::label);
     html! {
         @if offers.is_empty() {
             p.remarks { "Nothing is called so. Try a part of the name, a function code such as 16, or an address such as 0x5F00." }

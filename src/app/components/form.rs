@@ -1,111 +1,115 @@
-//! The form of what is built: an entry for each field.
+//! A form: an entry for each field of something.
 
-use leptos::prelude::*;
 use maud::{Markup, html};
 use web_sys::Event;
 
 use super::strip::role_class;
 use crate::app::browser;
-use crate::app::making::{Made, Making};
-use crate::app::state::State;
 use crate::field::{Bits, Message, hex_value, number_text};
-use crate::tool::{Content, Editor, Entry, parse_value};
+use crate::tool::{Change, Content, Entries, Entry, parse_value};
 
-#[component]
-pub fn Form(making: Making) -> impl IntoView {
-    let form = move || {
-        making.shape.track();
-        making.now(|made| form(made).into_string())
-    };
-    view! { <section class="card form" aria-label="Form" inner_html=form></section> }
+/// Calls `make` with the path and the change, if the event is one of an entry.
+pub fn hear(kind: &str, event: &Event, make: impl FnOnce(&str, Change)) {
+    let Some(path) = browser::attribute(event, "data-path") else { return };
+    let number = |name: &str| browser::attribute(event, name).and_then(|number| number.parse().ok());
+    let typed = browser::value(event);
+    match kind {
+        "input" => match number("data-part") {
+            None => make(&path, Change::Enter(&typed)),
+            Some(part) => {
+                let value = browser::checked(event).map_or_else(|| typed.parse().ok(), |on| Some(on.into()));
+                if let Some(value) = value {
+                    make(&path, Change::Bits { part, value });
+                }
+            }
+        },
+        "change" if browser::id(event).ends_with(BY_NAME) && !typed.is_empty() => {
+            make(&path, Change::Enter(&typed));
+        }
+        "click" if browser::attribute(event, "data-add").is_some() => make(&path, Change::Add),
+        "click" => {
+            if let Some(index) = number("data-remove") {
+                make(&path, Change::Remove(index));
+            }
+        }
+        _ => {}
+    }
 }
 
-/// Takes what was typed or chosen in the form.
-pub fn hear(making: Making, state: State, kind: &str, event: &Event) {
-    if kind == "click" && browser::attribute(event, "data-open").is_some() {
-        making.open_all(state);
-    }
-    let Some(path) = browser::attribute(event, "data-path") else { return };
-    let part = browser::attribute(event, "data-part").and_then(|part| part.parse().ok());
-    let typed = || browser::value(event);
-    match (kind, part) {
-        ("input", None) => making.edit(state, |editor| editor.enter(&path, &typed())),
-        ("input", Some(part)) => {
-            let value = browser::checked(event).map_or_else(|| typed().parse().ok(), |on| Some(on.into()));
-            if let Some(value) = value {
-                making.edit(state, |editor| editor.set_bits(&path, part, value));
-            }
+/// Ends of the ids of what belongs to the field of an entry: the list of names or what is computed, and
+/// what is wrong with it.
+const BY_NAME: &str = "=";
+const MISFIT: &str = "!";
+
+/// Which entries a form has: when that changes, it is drawn anew. In between its fields stay as they are
+/// while somebody types.
+pub fn shape(entries: &Entries) -> String {
+    let mut shape = String::new();
+    entries.form.visit(&mut |entry| {
+        shape.push_str(&entry.path);
+        if let Content::Choice { raw, .. } = entry.content {
+            shape.push_str(&raw.to_string());
         }
-        ("click", _) => {
-            if browser::attribute(event, "data-add").is_some() {
-                making.edit(state, |editor| editor.add(&path));
-            } else if let Some(index) =
-                browser::attribute(event, "data-remove").and_then(|at| at.parse().ok())
-            {
-                making.edit(state, |editor| editor.remove(&path, index));
-            }
-        }
-        _ => return,
-    }
-    making.now(|made| made.editor.as_ref().map(refresh));
+        shape.push(' ');
+    });
+    shape
 }
 
 /// Brings fields that stay in the page up to what the form says, and says beside them what does not fit.
-fn refresh(editor: &Editor) {
-    editor.entries().form.visit(&mut |entry| {
+pub fn refresh(entries: &Entries) {
+    entries.form.visit(&mut |entry| {
         let path = &entry.path;
         let field = |part: &str| format!("{path}{part}");
         match &entry.content {
             Content::Number { width, text } => {
-                browser::set_field(&field(""), text);
+                browser::set_field(path, text);
                 let raw = parse_value(text, *width, entry.spec);
                 let name = raw.as_ref().ok().and_then(|raw| entry.spec.name(*raw));
-                browser::set_field(&field("="), name.map_or("", |name| name.label));
+                browser::set_field(&field(BY_NAME), name.map_or("", |name| name.label));
                 for (index, part) in entry.spec.bits.iter().enumerate() {
                     let value = raw.as_ref().map_or(0, |raw| part.of(*raw));
                     browser::set_field(&field(&format!("#{index}")), &value.to_string());
                 }
             }
             Content::Computed { width, computed, .. } => {
-                browser::set_text(&field("="), &hex_value(*computed, *width));
+                browser::set_text(&field(BY_NAME), &hex_value(*computed, *width));
             }
             _ => {}
         }
-        let misfit = editor.entries().misfits.iter().find(|misfit| misfit.path == *path);
-        let said = misfit.map_or(String::new(), |misfit| misfit.message.sentence());
-        browser::set_text(&field("!"), &said);
+        browser::set_text(&field(MISFIT), &said(entries, path));
     });
 }
 
-fn form(made: &Made) -> Markup {
-    let Some(editor) = &made.editor else { return html! {} };
-    html! {
-        h2 { @if let Some(offer) = made.chosen { (offer.label().sentence()) } }
-        (entries(&editor.entries().form.entries))
-        @if editor.is_task() {
-            button.quiet type="button" data-open="" { "Edit every field of it" }
-        }
-    }
+/// What is wrong with the entry at `path`.
+fn said(entries: &Entries, path: &str) -> String {
+    let misfit = entries.misfits.iter().find(|misfit| misfit.path == *path);
+    misfit.map_or(String::new(), |misfit| misfit.message.sentence())
 }
 
-fn entries(entries: &[Entry]) -> Markup {
-    html! { div.entries { @for it in entries { (entry(it)) } } }
+/// The form.
+pub fn form(all: &Entries) -> Markup {
+    entries(all, &all.form.entries)
 }
 
-fn entry(entry: &Entry) -> Markup {
+fn entries(all: &Entries, entries: &[Entry]) -> Markup {
+    html! { div.entries { @for it in entries { (entry(all, it)) } } }
+}
+
+fn entry(all: &Entries, entry: &Entry) -> Markup {
     let spec = entry.spec;
     let label = entry.label().sentence();
     let class = role_class(spec.role);
     match &entry.content {
         Content::Group { entries: within } => html! {
-            fieldset class=(class) { legend { (label) } (entries(within)) }
+            fieldset class=(class) { legend { (label) } (note(entry)) (entries(all, within)) }
         },
         Content::List { items } => html! {
             fieldset class=(class) data-path=(entry.path) {
                 legend { (label) }
+                (note(entry))
                 @for (index, item) in items.iter().enumerate() {
                     div.item {
-                        (entries(item))
+                        (entries(all, item))
                         button.quiet type="button" data-remove=(index) aria-label={ "Remove number " (index + 1) } { "−" }
                     }
                 }
@@ -119,21 +123,21 @@ fn entry(entry: &Entry) -> Markup {
             div.entry class=(class) data-path=(entry.path) {
                 (label_of(entry, &label))
                 div.control {
-                    output id={ (entry.path) "=" } { (hex_value(*computed, *width)) }
+                    output id={ (entry.path) (BY_NAME) } { (hex_value(*computed, *width)) }
                     input id=(entry.path) value=(text) placeholder="computed" autocomplete="off" spellcheck="false";
                 }
-                (misfit(entry))
+                (misfit(all, entry))
             }
         },
         Content::Number { width, text } => html! {
             div.entry class=(class) data-path=(entry.path) {
                 (label_of(entry, &label))
                 div.control {
-                    input id=(entry.path) value=(text) autocomplete="off" spellcheck="false" aria-describedby={ (entry.path) "!" };
+                    input id=(entry.path) value=(text) autocomplete="off" spellcheck="false" aria-describedby={ (entry.path) (MISFIT) };
                     @if !spec.unit.is_empty() { span.unit { (spec.unit) } }
                     @if !spec.names.is_empty() { (names(entry, parse_value(text, *width, spec).ok())) }
                 }
-                (misfit(entry))
+                (misfit(all, entry))
                 @if !spec.bits.is_empty() { (bits(entry, parse_value(text, *width, spec).unwrap_or(0))) }
             }
         },
@@ -144,9 +148,9 @@ fn entry(entry: &Entry) -> Markup {
             div.entry class=(class) data-path=(entry.path) {
                 (label_of(entry, &label))
                 div.control {
-                    input id=(entry.path) value=(text) autocomplete="off" spellcheck="false" aria-describedby={ (entry.path) "!" };
+                    input id=(entry.path) value=(text) autocomplete="off" spellcheck="false" aria-describedby={ (entry.path) (MISFIT) };
                 }
-                (misfit(entry))
+                (misfit(all, entry))
             }
         },
     }
@@ -169,14 +173,19 @@ fn range(entry: &Entry, from: u64, to: u64) -> String {
 }
 
 /// Where what is wrong with the entry is said.
-fn misfit(entry: &Entry) -> Markup {
-    html! { p.misfit id={ (entry.path) "!" } {} }
+fn misfit(all: &Entries, entry: &Entry) -> Markup {
+    html! { p.misfit id={ (entry.path) (MISFIT) } { (said(all, &entry.path)) } }
+}
+
+/// What there is to know of a group.
+fn note(entry: &Entry) -> Markup {
+    html! { @if !entry.spec.note.is_empty() { p.note { (entry.spec.note) } } }
 }
 
 /// The named values to choose from.
 fn names(entry: &Entry, raw: Option<u64>) -> Markup {
     html! {
-        select id={ (entry.path) "=" } aria-label={ (entry.label().sentence()) ", by name" } {
+        select id={ (entry.path) (BY_NAME) } aria-label={ (entry.label().sentence()) ", by name" } {
             option value="" { "by name" }
             @for name in entry.spec.names {
                 option value=(name.label) selected[raw == Some(name.value)] { (Message::term(name.label).sentence()) }

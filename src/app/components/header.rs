@@ -2,9 +2,9 @@
 
 use leptos::prelude::*;
 use maud::html;
-use web_sys::Event;
+use web_sys::{Element, Event};
 
-use crate::app::browser;
+use crate::app::{address, browser};
 
 /// The id of the list of themes. The boot script reads the same setting, so that the page comes up in
 /// the right colours.
@@ -19,6 +19,16 @@ pub fn Header(
 }
 
 pub fn hear(kind: &str, event: &Event) {
+    if kind == "click" && browser::attribute(event, "data-link").is_some() {
+        address::copy_link();
+    }
+    if kind == "click" && browser::closest(event, ".skip").is_some() {
+        // The address holds what is shown, and so no place in the page.
+        event.prevent_default();
+        if let Some(main) = browser::element::<Element>("main") {
+            browser::focus(&main);
+        }
+    }
     if kind == "change" && browser::id(event) == THEME {
         let theme = browser::value(event);
         if let Some(root) = document().document_element() {
@@ -29,7 +39,7 @@ pub fn hear(kind: &str, event: &Event) {
 }
 
 /// The views, each a document of its own.
-const VIEWS: [(&str, &str); 2] = [(".", "Decode"), ("build.html", "Build")];
+const VIEWS: [(&str, &str); 3] = [(".", "Decode"), ("build.html", "Build"), ("devices.html", "Devices")];
 
 fn content(here: &str) -> String {
     let chosen = browser::remembered(THEME).unwrap_or_default();
@@ -42,6 +52,7 @@ fn content(here: &str) -> String {
             }
         }
         p.promise { "Reads and builds field-bus telegrams. Nothing leaves this page." }
+        button.quiet type="button" data-link="" { "Copy link" }
         label.theme {
             span { "Theme" }
             select id=(THEME) aria-label="Theme" {
@@ -50,6 +61,7 @@ fn content(here: &str) -> String {
                 }
             }
         }
+        p.said id="said" role="status" {}
     };
     markup.into_string()
 }

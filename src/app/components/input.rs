@@ -4,7 +4,7 @@ use leptos::prelude::*;
 use maud::{Markup, html};
 use web_sys::{Element, Event, HtmlTextAreaElement};
 
-use super::{marks, settings};
+use super::{drawn, marks, settings};
 use crate::app::browser::{self, INPUT};
 use crate::app::state::{State, count};
 use crate::field::{Severity, Span};
@@ -12,11 +12,11 @@ use crate::tool::{Remark, Report};
 
 #[component]
 pub fn Input(state: State) -> impl IntoView {
-    let marks = move || {
+    let marks = drawn(move || {
         let lit = state.light.get().span();
-        state.decoded.with(|decoded| marks::marks(decoded, lit).into_string())
-    };
-    let reading = move || state.decoded.with(|decoded| reading(&decoded.text, &decoded.report).into_string());
+        state.decoded.with(|decoded| marks::marks(decoded, lit))
+    });
+    let reading = drawn(move || state.decoded.with(|decoded| reading(&decoded.text, &decoded.report)));
     view! {
         <section class="card input" aria-label="Input">
             <label for=INPUT class="title">"Paste telegrams as hex, one in a line"</label>

@@ -4,8 +4,9 @@ use leptos::prelude::*;
 use maud::{Markup, html};
 use web_sys::Event;
 
+use super::{Drawn, drawn};
 use crate::app::browser::{self, LIST};
-use crate::app::state::{Decoded, State};
+use crate::app::state::State;
 use crate::field::Direction;
 use crate::tool::{Certainty, Report, Verdict};
 
@@ -16,14 +17,16 @@ const SIGHT: usize = 10;
 
 #[component]
 pub fn Telegrams(state: State) -> impl IntoView {
-    let total = move || state.decoded.with(|decoded| decoded.report.telegrams.len());
-    let current = move || state.decoded.with(Decoded::index);
-    let rows = move || {
+    let empty: Drawn<bool> =
+        Box::new(move || state.decoded.with(|decoded| decoded.report.telegrams.is_empty()));
+    let current: Drawn =
+        Box::new(move || state.decoded.with(|decoded| format!("telegram-{}", decoded.index())));
+    let rows = drawn(move || {
         let scrolled = state.scrolled.get();
-        state.decoded.with(|decoded| rows(&decoded.report, scrolled / ROW, decoded.index()).into_string())
-    };
+        state.decoded.with(|decoded| rows(&decoded.report, scrolled / ROW, decoded.index()))
+    });
     view! {
-        <section class="card telegrams" aria-labelledby="telegrams" hidden=move || total() == 0>
+        <section class="card telegrams" aria-labelledby="telegrams" hidden=empty>
             <div inner_html=head().into_string()></div>
             <div
                 id=LIST
@@ -31,7 +34,7 @@ pub fn Telegrams(state: State) -> impl IntoView {
                 role="listbox"
                 tabindex="0"
                 aria-labelledby="telegrams"
-                aria-activedescendant=move || format!("telegram-{}", current())
+                aria-activedescendant=current
                 inner_html=rows
             ></div>
         </section>

@@ -7,6 +7,7 @@
 
 pub mod check;
 pub mod detail;
+pub mod device_file;
 pub mod examples;
 pub mod fields;
 pub mod finder;
@@ -15,7 +16,18 @@ pub mod header;
 pub mod input;
 pub mod layout;
 pub mod list;
+pub mod made;
 pub mod marks;
 pub mod settings;
 pub mod strip;
 pub mod views;
+
+use maud::Markup;
+
+/// What an element shows, anew whenever that changes. All of them are of one type: the code that follows
+/// the signals is downloaded once.
+pub type Drawn<T = String> = Box<dyn Fn() -> T + Send>;
+
+pub fn drawn(markup: impl Fn() -> Markup + Send + 'static) -> Drawn {
+    Box::new(move || markup().into_string())
+}

@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 use web_sys::Event;
 
-use crate::app::components::{detail, finder, form, header};
+use crate::app::components::{detail, finder, header, made};
 use crate::app::making::Making;
 use crate::app::state::State;
 
@@ -12,9 +12,11 @@ pub fn hear(making: Making, state: State, event: &Event) {
     let kind = event.type_();
     header::hear(&kind, event);
     finder::hear(making, state, &kind, event);
-    form::hear(making, state, &kind, event);
+    made::hear(making, state, &kind, event);
     detail::hear(state, &kind, event);
 }
+
+const DECODE: detail::Other = detail::Other { document: ".", label: "Open in Decode" };
 
 #[component]
 pub fn Build(making: Making, state: State) -> impl IntoView {
@@ -23,9 +25,9 @@ pub fn Build(making: Making, state: State) -> impl IntoView {
         <main id="main" class="views" tabindex="-1">
             <div class="column">
                 <finder::Finder making />
-                <form::Form making />
+                <made::Form making />
             </div>
-            <detail::Telegram state />
+            <detail::Telegram state other=DECODE />
         </main>
     }
 }

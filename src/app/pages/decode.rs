@@ -21,6 +21,8 @@ pub fn hear(state: State, event: &Event) {
     }
 }
 
+const BUILD: detail::Other = detail::Other { document: "build.html", label: "Edit in Build" };
+
 #[component]
 pub fn Decode(state: State) -> impl IntoView {
     view! {
@@ -30,7 +32,7 @@ pub fn Decode(state: State) -> impl IntoView {
                 <input::Input state />
                 <list::Telegrams state />
             </div>
-            <detail::Telegram state />
+            <detail::Telegram state other=BUILD />
         </main>
     }
 }

@@ -3,6 +3,8 @@
 //! Written: function (1 byte), batch (1 byte), text up to the end. Read: communication status
 //! (2 bytes), then a byte for each of the four batches.
 
+use std::cmp::Ordering;
+
 use super::UNUSED;
 use super::command::{Command, Function, Functions, Second, names};
 use super::text::{Say, Text, check_length, check_number};
@@ -111,7 +113,7 @@ fn check_user(text: &str, say: Say<'_>) {
 }
 
 fn check_preset(text: &str, say: Say<'_>) {
-    if check_number(PRESET.spec.label, text, say).is_some_and(|number| number <= 0.0) {
+    if check_number(PRESET.spec.label, text, say).is_some_and(Ordering::is_le) {
         let message =
             message!("Preset counter is {text}; only positive numbers are allowed", text = text.to_owned());
         say("out-of-range", message);

@@ -1,7 +1,9 @@
 //! Text as the Memograph takes it: ASCII, two characters in a register, padded with a space to
 //! whole registers. The device takes no notice of that space.
 
-use crate::field::{Argument, Format, Message, Role, Severity, Spec, parse_float};
+use std::cmp::Ordering;
+
+use crate::field::{Argument, Format, Message, Role, Severity, Spec};
 use crate::message;
 use crate::walk::{Walk, Walker};
 
@@ -77,11 +79,11 @@ pub fn check_length(label: &'static str, length: usize, longest: usize, say: Say
     }
 }
 
-/// The number that `text` writes, with or without decimal point and exponent; says so where it is none.
-pub fn check_number(label: &'static str, text: &str, say: Say<'_>) -> Option<f32> {
-    let written = text.bytes().all(|byte| b"0123456789+-.eE".contains(&byte));
-    let number = parse_float(text, 4).filter(|_| written).map(|raw| f32::from_bits(raw as u32));
-    if number.is_none() {
+/// Whether the number that `text` writes, with or without decimal point and exponent, is below, at or above
+/// zero; says so where it is none.
+pub fn check_number(label: &'static str, text: &str, say: Say<'_>) -> Option<Ordering> {
+    let sign = sign(text);
+    if sign.is_none() {
         let message = message!(
             "{label} is “{text}”, which is not a number: write it like 12.5, -0.5 or 1.2E-3",
             label = Argument::Term(label),
@@ -89,7 +91,32 @@ pub fn check_number(label: &'static str, text: &str, say: Say<'_>) -> Option<f32
         );
         say("not-a-number", message);
     }
-    number
+    sign
+}
+
+/// The largest float of 4 bytes is 3.4E38.
+const LARGEST_MAGNITUDE: i32 = 39;
+
+/// How a written number compares to zero. Only its spelling is looked at: reading floats would more than
+/// double what this folder adds to the page.
+fn sign(text: &str) -> Option<Ordering> {
+    let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
+    let (mantissa, exponent) = unsigned.split_once(['e', 'E']).unwrap_or((unsigned, "0"));
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+    // More digits before the point than the largest float has: 1E99 is a number to us, not to the device.
+    let exponent = exponent.parse::<i16>().map_or(i32::MAX / 2, i32::from);
+    let magnitude = whole.trim_start_matches('0').len() as i32 + exponent;
+    let is_number = digits(whole)
+        && digits(fraction)
+        && whole.len() + fraction.len() > 0
+        && magnitude <= LARGEST_MAGNITUDE;
+    let zero = !mantissa.bytes().any(|byte| (b'1'..=b'9').contains(&byte));
+    is_number.then_some(match (zero, text.starts_with('-')) {
+        (true, _) => Ordering::Equal,
+        (false, true) => Ordering::Less,
+        (false, false) => Ordering::Greater,
+    })
 }
 
 /// Says so where `text` is not a whole number from 0 to `most`.
@@ -120,3 +147,33 @@ static PADDING: Spec = Spec::new("padding", "Padding")
     .source(SOURCE);
 
 const SOURCE: &str = "Memograph M RSG45 Modbus supplement, 2.6.11 to 2.6.13";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_told_by_their_spelling() {
+        for (text, sign_of) in [
+            ("12.5", Some(Ordering::Greater)),
+            ("-0.5", Some(Ordering::Less)),
+            ("+1.2E-3", Some(Ordering::Greater)),
+            ("-.0e7", Some(Ordering::Equal)),
+            ("5.", Some(Ordering::Greater)),
+            ("", None),
+            (".", None),
+            ("-", None),
+            ("1e", None),
+            ("1e+", None),
+            ("1,5", None),
+            ("1.2.3", None),
+            ("--1", None),
+            ("NaN", None),
+            ("3.4E38", Some(Ordering::Greater)),
+            ("1E99", None),
+            ("1E99999999999", None),
+        ] {
+            assert_eq!(sign(text), sign_of, "{text}");
+        }
+    }
+}

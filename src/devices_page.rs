@@ -1,0 +1,5 @@
+//! The page that says how devices are set up.
+
+fn main() {
+    buslens::app::devices();
+}
