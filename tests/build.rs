@@ -5,6 +5,7 @@ use buslens::device::{Access, Draft, Profile};
 use buslens::field::{Direction, hex};
 use buslens::frame::{Cargo, Settings};
 use buslens::modbus::{KINDS, STANDARD, exceptions};
+use buslens::profibus;
 use buslens::tool::{Options, PROFILES, PROTOCOLS, build, decode, replies};
 use buslens::walk::form::{self, Content, Entry};
 use buslens::walk::{Deviations, read, write};
@@ -49,7 +50,7 @@ fn entry<'a>(entries: &'a mut [Entry], key: &str) -> Option<&'a mut Entry> {
 
 fn bytes(draft: &mut Draft, unit: u8, protocol: &str) -> String {
     let protocol = PROTOCOLS.iter().find(|known| known.key == protocol).expect(protocol);
-    let mut frame = build(draft, unit, protocol).expect("a telegram");
+    let mut frame = build(draft, unit, protocol, &Settings::default()).expect("a telegram");
     hex(&write(frame.as_mut(), &Deviations::default()))
 }
 
@@ -121,7 +122,7 @@ fn keb_by_register_and_by_index() {
 #[test]
 fn a_number_that_does_not_exist_is_said() {
     let mut channel = draft("memograph-rsg45", "Read Universal channel at 200 to 319", &[("number", "41")]);
-    let said = build(&mut channel, 1, PROTOCOLS[0]).err().expect("refused").to_string();
+    let said = build(&mut channel, 1, PROTOCOLS[0], &Settings::default()).err().expect("refused").to_string();
     assert_eq!(said, "Universal channel 41 does not exist: there are 1 to 40");
 }
 
@@ -169,10 +170,10 @@ fn every_request_has_its_responses() {
     for (kind, protocol) in requests.flat_map(|kind| PROTOCOLS.iter().map(move |protocol| (kind, protocol))) {
         let Some(mut request) = (protocol.carry)(5, Cargo::Modbus(kind.pdu(&STANDARD))) else { continue };
         let asked = hex(&write(request.as_mut(), &Deviations::default()));
-        let replies = replies(request.as_mut());
+        let replies = replies(request.as_mut(), &profibus::Settings::default());
         assert_eq!(replies.len(), 1 + exceptions().len(), "{}", kind.spec.key);
         for mut reply in replies {
-            let answer = hex(&write(reply.as_mut(), &Deviations::default()));
+            let answer = hex(&write(reply.frame.as_mut(), &Deviations::default()));
             let options = Options { protocol: Some(protocol), ..Options::default() };
             let report = decode(&format!("{asked}\n{answer}"), options);
             let key = kind.spec.key;
@@ -190,11 +191,35 @@ fn a_response_has_what_was_asked_for() {
         let bytes: Vec<u8> = request.split(' ').map(|byte| u8::from_str_radix(byte, 16).unwrap()).collect();
         let mut frame = (PROTOCOLS[0].expect)(&bytes, Direction::Request, &Settings::default());
         read(frame.as_mut(), &bytes);
-        let mut reply = replies(frame.as_mut()).into_iter().next().expect("an answer");
-        hex(&write(reply.as_mut(), &Deviations::default()))
+        let settings = profibus::Settings::default();
+        let mut reply = replies(frame.as_mut(), &settings).into_iter().next().expect("an answer");
+        hex(&write(reply.frame.as_mut(), &Deviations::default()))
     };
     assert_eq!(respond("01 03 00 C8 00 03 84 35")[..26], *"01 03 06 00 00 00 00 00 00");
     assert_eq!(respond("01 10 00 D7 00 03 06 00 80 42 F6 E9 79 28 15"), "01 10 00 D7 00 03 30 30");
     assert_eq!(respond("05 06 0C 90 04 01 48 33"), "05 06 0C 90 04 01 48 33");
     assert_eq!(respond("11 01 00 13 00 25 0E 84")[..23], *"11 01 05 00 00 00 00 00");
+}
+
+/// The confirmation of every job, and each error, comes back to the master that asked.
+#[test]
+fn a_job_has_its_confirmations() {
+    let respond = |protocol: &str, request: &str| -> Vec<String> {
+        let protocol = PROTOCOLS.iter().find(|it| it.key == protocol).expect("a protocol");
+        let bytes: Vec<u8> = request.split(' ').map(|byte| u8::from_str_radix(byte, 16).unwrap()).collect();
+        let mut frame = (protocol.expect)(&bytes, Direction::Request, &Settings::default());
+        read(frame.as_mut(), &bytes);
+        let replies = replies(frame.as_mut(), &profibus::Settings::default());
+        replies.into_iter().map(|mut it| hex(&write(it.frame.as_mut(), &Deviations::default()))).collect()
+    };
+    let written = respond("profibus-parameter-channel", "52 01 20 34 00 64 00 00");
+    assert_eq!(written[0], "52 01 20 34 00 64 00 00");
+    assert!(written.iter().any(|reply| reply == "D2 01 20 34 08 00 00 30"), "{written:?}");
+    assert_eq!(
+        respond("profibus-parameter-channel", "41 00 22 00 00 00 00 00")[0],
+        "71 00 22 00 00 00 00 00"
+    );
+    let request = "68 0F 0F 68 05 03 5D 41 00 22 00 00 00 00 00 04 00 05 DC 51 16";
+    let framed = respond("profibus-fdl", request);
+    assert_eq!(framed[0][..50], *"68 0F 0F 68 03 05 08 71 00 22 00 00 00 00 00 00 00");
 }

@@ -30,11 +30,20 @@ pub struct Made {
     pub editor: Option<Editor>,
     /// Why there are no bytes.
     pub refused: Option<Message>,
+    /// What can come back.
+    pub replies: Vec<(Message, Vec<u8>)>,
 }
 
 impl Default for Made {
     fn default() -> Self {
-        Self { device: None, protocol: PROTOCOLS[0], find: String::new(), editor: None, refused: None }
+        Self {
+            device: None,
+            protocol: PROTOCOLS[0],
+            find: String::new(),
+            editor: None,
+            refused: None,
+            replies: Vec::new(),
+        }
     }
 }
 
@@ -153,11 +162,13 @@ impl Making {
         browser::set_field(browser::DEVICE, self.now(|made| made.device.map_or("", |it| it.key)));
         let mut text = None;
         let mut options = Options::default();
-        self.made.update_untracked(|made| {
+        let settings = state.settings();
+        self.made.update(|made| {
             options.device = made.device;
             if let Some(editor) = &mut made.editor {
                 options.protocol = Some(editor.protocol);
                 options.direction = Some(editor.direction);
+                made.replies = editor.replies(&settings);
                 match editor.bytes() {
                     Ok(bytes) => {
                         made.refused = None;

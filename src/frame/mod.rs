@@ -129,10 +129,8 @@ pub trait Frame: Telegram {
         None
     }
 
-    /// A frame with the same address around another PDU, such as the response.
-    fn around(&self, _pdu: Pdu) -> Option<Box<dyn Frame>> {
-        None
-    }
+    /// What carries `response` back from the one that this request is for; `None` if it cannot.
+    fn back(&self, response: Cargo) -> Option<Box<dyn Frame>>;
 }
 
 /// What a frame carries.

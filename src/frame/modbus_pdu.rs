@@ -63,7 +63,8 @@ impl Frame for Bare {
         Some(&mut self.pdu)
     }
 
-    fn around(&self, pdu: Pdu) -> Option<Box<dyn Frame>> {
+    fn back(&self, response: Cargo) -> Option<Box<dyn Frame>> {
+        let Cargo::Modbus(pdu) = response else { return None };
         Some(Box::new(Self { pdu }))
     }
 }

@@ -3,7 +3,7 @@
 //!
 //! Source: Modbus over serial line V1.02, sections 2.2 and 2.5.
 
-use super::{Content, Fit, Frame, Verdict};
+use super::{Cargo, Content, Fit, Frame, Verdict};
 use crate::field::{Direction, Message, Name, Role, Severity, Span, Spec};
 use crate::message;
 use crate::modbus::{Dialect, EXCEPTION, KINDS, LONGEST_PDU, Pdu, Server};
@@ -108,7 +108,8 @@ impl Frame for Serial {
         Some(&mut self.pdu)
     }
 
-    fn around(&self, pdu: Pdu) -> Option<Box<dyn Frame>> {
+    fn back(&self, response: Cargo) -> Option<Box<dyn Frame>> {
+        let Cargo::Modbus(pdu) = response else { return None };
         Some(Box::new(Self { mode: self.mode, unit: self.unit, pdu }))
     }
 }

@@ -159,4 +159,8 @@ impl Frame for Bare {
             self.body.answer(channel);
         }
     }
+
+    fn back(&self, response: Cargo) -> Option<Box<dyn Frame>> {
+        (WITHOUT_FRAME.carry)(0, response)
+    }
 }

@@ -393,6 +393,18 @@ impl Frame for Fdl {
             self.body.answer(channel);
         }
     }
+
+    fn back(&self, response: Cargo) -> Option<Box<dyn Frame>> {
+        let Cargo::Profibus(kind, body) = response else { return None };
+        Some(Box::new(Self {
+            destination: self.source,
+            source: self.destination,
+            destination_sap: self.source_sap,
+            source_sap: self.destination_sap,
+            body,
+            ..Self::new(kind, &self.settings)
+        }))
+    }
 }
 
 fn fit(bytes: &[u8], _: &Settings) -> Fit {

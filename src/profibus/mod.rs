@@ -117,6 +117,10 @@ pub trait Body: Telegram {
         None
     }
 
+    fn channel_mut(&mut self) -> Option<&mut Channel> {
+        None
+    }
+
     /// Takes from the request what a confirmation of the parameter channel does not repeat, before
     /// the confirmation is read.
     fn answer(&mut self, _request: &Channel) {}

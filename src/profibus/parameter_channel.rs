@@ -92,6 +92,16 @@ pub struct Refusal {
 }
 
 impl Refusal {
+    /// Every error that the manual lists, with its name.
+    pub fn all() -> impl Iterator<Item = (Self, &'static Name)> {
+        ERRORS.iter().flat_map(|errors| {
+            errors.additional.names.iter().map(|name| {
+                let Errors { class, code, .. } = *errors;
+                (Self { class, code, additional: name.value as u16 }, name)
+            })
+        })
+    }
+
     /// What the manual calls this error. Only all three numbers together say it.
     pub fn name(&self) -> Option<&'static Name> {
         self.additional_spec().name(self.additional.into())
@@ -204,6 +214,22 @@ impl Channel {
         let mut answer = Self { request_length: request.length(), ..self.clone() };
         walk::read(&mut answer, &self.bytes());
         answer
+    }
+
+    /// Makes this the confirmation of `request`: with what was written, or with 0 in 4 bytes for what
+    /// was read; or with an error.
+    pub fn confirm(&mut self, request: &Self, refusal: Option<Refusal>) {
+        self.control = request.control;
+        (self.index, self.subindex) = (request.index, request.subindex);
+        self.request_length = request.length();
+        if request.service() == Service::Read {
+            self.ask(Service::Read, DATA, request.handshake());
+        }
+        self.value = request.value().unwrap_or_default();
+        if let Some(refusal) = refusal {
+            self.control = ERROR.put(self.control.into(), 1) as u8;
+            self.refusal = refusal;
+        }
     }
 
     /// Index and subindex in a sentence.
@@ -330,6 +356,10 @@ impl Body for Channel {
     }
 
     fn channel(&self) -> Option<&Channel> {
+        Some(self)
+    }
+
+    fn channel_mut(&mut self) -> Option<&mut Channel> {
         Some(self)
     }
 

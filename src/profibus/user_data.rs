@@ -122,6 +122,10 @@ impl Body for UserData {
         self.channel.as_ref()
     }
 
+    fn channel_mut(&mut self) -> Option<&mut Channel> {
+        self.channel.as_mut()
+    }
+
     fn answer(&mut self, request: &Channel) {
         if let Some(channel) = &mut self.channel {
             channel.answer(request);

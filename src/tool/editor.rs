@@ -1,7 +1,8 @@
 //! A telegram while it is made: its form, the bytes that follow from it, and what does not fit.
 
+use super::build::{build, does_not_carry, slot};
 use super::link::Link;
-use super::{Change, Entries, Offer, Options, Settings, build, decode, offers};
+use super::{Change, Entries, Offer, Options, Settings, decode, offers, replies};
 use crate::device::{Draft, Task};
 use crate::field::{Argument, Direction, Message, Role, Spec, hex};
 use crate::frame::{self, Cargo, Frame, PROTOCOLS, Protocol};
@@ -40,6 +41,13 @@ struct Asking {
     unit: u8,
     task: Task,
     draft: Draft,
+    settings: frame::Settings,
+}
+
+impl Asking {
+    fn build(&mut self, protocol: &Protocol) -> Result<Box<dyn Frame>, Message> {
+        build(&mut self.draft, self.unit, protocol, &self.settings)
+    }
 }
 
 impl Editor {
@@ -50,11 +58,7 @@ impl Editor {
         protocol: &'static Protocol,
         settings: &Settings,
     ) -> Result<Self, Message> {
-        let carried = |cargo| {
-            (protocol.carry)(unit, cargo).ok_or_else(|| {
-                message!("{protocol} does not carry such a telegram", protocol = protocol.label.to_owned())
-            })
-        };
+        let carried = |cargo| (protocol.carry)(unit, cargo).ok_or_else(|| does_not_carry(protocol));
         let (direction, subject) = match offer {
             Offer::Telegram(kind) => {
                 let pdu = Pdu::expect(kind.function, kind.direction, settings.frame.dialect);
@@ -65,7 +69,10 @@ impl Editor {
                 (kind.direction, Subject::Telegram(carried(Cargo::Profibus(kind, body))?))
             }
             Offer::Task(task) => {
-                (Direction::Request, Subject::Task(Asking { unit, task, draft: task.draft() }))
+                let draft = task.draft();
+                slot(&draft, protocol, &settings.frame)?;
+                let settings = settings.frame.clone();
+                (Direction::Request, Subject::Task(Asking { unit, task, draft, settings }))
             }
         };
         Ok(Self::with(subject, Deviations::default(), protocol, direction))
@@ -142,7 +149,7 @@ impl Editor {
         match &mut self.subject {
             Subject::Telegram(frame) => Ok(walk::write(frame.as_mut(), &self.entries.deviations)),
             Subject::Task(asking) => {
-                let mut frame = build(&mut asking.draft, asking.unit, self.protocol)?;
+                let mut frame = asking.build(self.protocol)?;
                 Ok(walk::write(frame.as_mut(), &Deviations::default()))
             }
         }
@@ -153,7 +160,7 @@ impl Editor {
         let unit = self.unit();
         let offer = match &mut self.subject {
             Subject::Task(asking) => {
-                build(&mut asking.draft, unit, protocol)?;
+                slot(&asking.draft, protocol, &asking.settings)?;
                 self.protocol = protocol;
                 return Ok(());
             }
@@ -188,7 +195,7 @@ impl Editor {
     /// Makes every field of the telegram an entry, where so far it was a request in the device's words.
     pub fn open_all(&mut self) -> Result<(), Message> {
         if let Subject::Task(asking) = &mut self.subject {
-            let frame = build(&mut asking.draft, asking.unit, self.protocol)?;
+            let frame = asking.build(self.protocol)?;
             *self =
                 Self::with(Subject::Telegram(frame), Deviations::default(), self.protocol, self.direction);
         }
@@ -213,6 +220,20 @@ impl Editor {
                 frame::Content::Nothing(spec) => Message::term(spec.label),
             },
         }
+    }
+
+    /// What can come back, as bytes with their names; nothing for a response.
+    pub fn replies(&mut self, settings: &Settings) -> Vec<(Message, Vec<u8>)> {
+        let profibus = &settings.frame.profibus;
+        let replies = match &mut self.subject {
+            Subject::Telegram(frame) => replies(frame.as_mut(), profibus),
+            Subject::Task(asking) => match asking.build(self.protocol) {
+                Ok(mut frame) => replies(frame.as_mut(), profibus),
+                Err(_) => Vec::new(),
+            },
+        };
+        let bytes = |frame: &mut dyn Frame| walk::write(frame, &Deviations::default());
+        replies.into_iter().map(|mut reply| (reply.label, bytes(reply.frame.as_mut()))).collect()
     }
 
     /// The telegram, if its every field is an entry.

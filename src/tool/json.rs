@@ -176,18 +176,24 @@ pub struct Summary {
 /// The whole report, a line for each telegram and one for the summary, each with its line end.
 pub fn lines(report: &Report, fields: bool) -> serde_json::Result<String> {
     let mut text = String::new();
-    for (index, telegram) in report.telegrams.iter().enumerate() {
-        if let Some(detail) = report.detail(index) {
-            let mut row = row(index, telegram, detail, fields);
-            let explained = report.explanations(index).into_iter();
-            row.hypotheses = explained.map(|one| hypothesis(one, &telegram.line.bytes)).collect();
-            text += &serde_json::to_string(&row)?;
-            text.push('\n');
-        }
+    for index in 0..report.telegrams.len() {
+        text += &line(report, index, fields)?;
+        text.push('\n');
     }
     text += &serde_json::to_string(&last(report))?;
     text.push('\n');
     Ok(text)
+}
+
+/// Telegram `index`, in a line without its end; nothing if there is none.
+pub fn line(report: &Report, index: usize, fields: bool) -> serde_json::Result<String> {
+    let (Some(telegram), Some(detail)) = (report.telegrams.get(index), report.detail(index)) else {
+        return Ok(String::new());
+    };
+    let mut row = row(index, telegram, detail, fields);
+    let explained = report.explanations(index).into_iter();
+    row.hypotheses = explained.map(|one| hypothesis(one, &telegram.line.bytes)).collect();
+    serde_json::to_string(&row)
 }
 
 fn row(index: usize, telegram: &Telegram, detail: Detail, fields: bool) -> Row {

@@ -11,18 +11,14 @@ use crate::field::{Message, Severity, hex};
 use crate::tool::link::Link;
 use crate::tool::{Certainty, Options, PROTOCOLS};
 
-/// The other view that shows the same telegram.
-#[derive(Clone, Copy)]
-pub struct Other {
-    pub document: &'static str,
-    pub label: &'static str,
-}
+/// Buttons for what can be done with a telegram, of which a link and the hex are given.
+pub type Actions = fn(&str, &str) -> Markup;
 
 #[component]
-pub fn Telegram(state: State, other: Other) -> impl IntoView {
+pub fn Telegram(state: State, actions: Actions) -> impl IntoView {
     let reading = drawn(move || {
         state.decoded.with(|decoded| match &decoded.shown {
-            Some(shown) => reading(shown, decoded, &other),
+            Some(shown) => reading(shown, decoded, actions),
             None => welcome(),
         })
     });
@@ -152,12 +148,11 @@ fn welcome() -> Markup {
     }
 }
 
-fn reading(shown: &Shown, decoded: &Decoded, other: &Other) -> Markup {
+fn reading(shown: &Shown, decoded: &Decoded, actions: Actions) -> Markup {
     let device = decoded.options.device.map_or("", |device| device.label);
-    let elsewhere = html! {
-        a.quiet href={ (other.document) "#" (link(shown, decoded)) } { (other.label) }
-    };
     let telegram = &shown.telegram;
+    // What somebody chose needs no reason.
+    let by_hand = decoded.options.protocol.is_some() && decoded.options.direction.is_some();
     let direction = match telegram.guess.certainty {
         Certainty::Open => "telegram",
         Certainty::Certain | Certainty::Likely => telegram.guess.direction.key(),
@@ -173,32 +168,33 @@ fn reading(shown: &Shown, decoded: &Decoded, other: &Other) -> Markup {
         }
         h2 { (shown.detail.meaning().sentence()) "." }
         p.kind {
-            (shown.detail.kind) ". "
-            @match telegram.guess.certainty {
-                Certainty::Certain => { "A " (direction) ": " (telegram.guess.reason) },
-                Certainty::Likely => { "Taken for a " (direction) ": " (telegram.guess.reason) },
-                Certainty::Open => { "Request or response? " (telegram.guess.reason.sentence()) },
-            }
-            "."
-        }
-        p.kind {
-            (telegram.choice.protocol.label) ": " (telegram.choice.reason) "."
-            @if !telegram.choice.others.is_empty() {
-                " It could also be "
-                @for (index, (other, fit)) in telegram.choice.others.iter().enumerate() {
-                    @if index > 0 { ", " }
-                    button.link type="button" data-protocol=(other.key) title=(fit.reason) { (other.label) }
+            (shown.detail.kind) "."
+            @if !by_hand {
+                " "
+                @match telegram.guess.certainty {
+                    Certainty::Certain => { "A " (direction) ": " (telegram.guess.reason) "." },
+                    Certainty::Likely => { "Taken for a " (direction) ": " (telegram.guess.reason) "." },
+                    Certainty::Open => { "Request or response? " (telegram.guess.reason.sentence()) "." },
                 }
-                "."
+            }
+        }
+        @if !by_hand {
+            p.kind {
+                (telegram.choice.protocol.label) ": " (telegram.choice.reason) "."
+                @if !telegram.choice.others.is_empty() {
+                    " It could also be "
+                    @for (index, (other, fit)) in telegram.choice.others.iter().enumerate() {
+                        @if index > 0 { ", " }
+                        button.link type="button" data-protocol=(other.key) title=(fit.reason) { (other.label) }
+                    }
+                    "."
+                }
             }
         }
         (problems(shown))
         div.bar {
             p.count { (Message::bytes(shown.bytes().len())) }
-            div.actions {
-                (elsewhere)
-                button.quiet type="button" data-copy=(hex(shown.bytes())) { "Copy as hex" }
-            }
+            div.actions { (actions(&link(shown, decoded), &hex(shown.bytes()))) }
         }
         (strip::strip(shown))
         (fields::device(shown, device))

@@ -5,7 +5,7 @@ use web_sys::Event;
 
 use super::strip::role_class;
 use crate::app::browser;
-use crate::field::{Bits, Message, hex_value, number_text};
+use crate::field::{Bits, Message, Role, Spec, hex_value, number_text};
 use crate::tool::{Change, Content, Entries, Entry, parse_value};
 
 /// Calls `make` with the path and the change, if the event is one of an entry.
@@ -120,7 +120,7 @@ fn entry(all: &Entries, entry: &Entry) -> Markup {
             p.entry class=(class) { span.label { (label) } span { (raw) ": " (chosen.label) } }
         },
         Content::Computed { width, computed, text } => html! {
-            div.entry class=(class) data-path=(entry.path) {
+            div.entry.computed class=(class) data-path=(entry.path) {
                 (label_of(entry, &label))
                 div.control {
                     output id={ (entry.path) (BY_NAME) } { (hex_value(*computed, *width)) }
@@ -135,7 +135,7 @@ fn entry(all: &Entries, entry: &Entry) -> Markup {
                 div.control {
                     input id=(entry.path) value=(text) autocomplete="off" spellcheck="false" aria-describedby={ (entry.path) (MISFIT) };
                     @if !spec.unit.is_empty() { span.unit { (spec.unit) } }
-                    @if !spec.names.is_empty() { (names(entry, parse_value(text, *width, spec).ok())) }
+                    @if by_name(spec) { (names(entry, parse_value(text, *width, spec).ok())) }
                 }
                 (misfit(all, entry))
                 @if !spec.bits.is_empty() { (bits(entry, parse_value(text, *width, spec).unwrap_or(0))) }
@@ -180,6 +180,11 @@ fn misfit(all: &Entries, entry: &Entry) -> Markup {
 /// What there is to know of a group.
 fn note(entry: &Entry) -> Markup {
     html! { @if !entry.spec.note.is_empty() { p.note { (entry.spec.note) } } }
+}
+
+/// Whether people think of its values by their names. A unit has a number; only a few are special.
+fn by_name(spec: &Spec) -> bool {
+    !spec.names.is_empty() && spec.role != Role::Unit
 }
 
 /// The named values to choose from.

@@ -38,8 +38,10 @@ pub fn hear(kind: &str, event: &Event) {
     }
 }
 
+const DEVICES: &str = "devices.html";
+
 /// The views, each a document of its own.
-const VIEWS: [(&str, &str); 3] = [(".", "Decode"), ("build.html", "Build"), ("devices.html", "Devices")];
+const VIEWS: [(&str, &str); 3] = [(".", "Decode"), ("build.html", "Build"), (DEVICES, "Devices")];
 
 fn content(here: &str) -> String {
     let chosen = browser::remembered(THEME).unwrap_or_default();
@@ -52,7 +54,8 @@ fn content(here: &str) -> String {
             }
         }
         p.promise { "Reads and builds field-bus telegrams. Nothing leaves this page." }
-        button.quiet type="button" data-link="" { "Copy link" }
+        // How devices are set up goes with the links of the other views.
+        @if here != DEVICES { button.quiet type="button" data-link="" { "Copy link" } }
         label.theme {
             span { "Theme" }
             select id=(THEME) aria-label="Theme" {

@@ -6,6 +6,7 @@
 //! parts, who know what is theirs by the ids and the attributes `data-…` around the event's target.
 
 pub mod check;
+pub mod copies;
 pub mod detail;
 pub mod device_file;
 pub mod examples;
@@ -18,6 +19,8 @@ pub mod layout;
 pub mod list;
 pub mod made;
 pub mod marks;
+pub mod menu;
+pub mod replies;
 pub mod settings;
 pub mod strip;
 pub mod views;

@@ -1,9 +1,8 @@
 //! How the input is to be read, and the examples to put there.
 
 use leptos::prelude::*;
-use leptos::wasm_bindgen::JsCast;
 use maud::{Markup, html};
-use web_sys::{Event, HtmlDetailsElement};
+use web_sys::Event;
 
 use super::examples;
 use crate::app::browser::{self, DEVICE, DIRECTION, PROTOCOL};
@@ -20,14 +19,9 @@ pub fn hear(state: State, kind: &str, event: &Event) {
     match kind {
         "change" => choose(state, event),
         "click" if browser::attribute(event, "data-clear").is_some() => state.load(""),
-        "keydown" if browser::key(event) == "Escape" => close_menu(event),
-        "focusout" if !browser::stays_within(event, MENU) => close_menu(event),
         _ => {}
     }
 }
-
-/// The menu of examples.
-const MENU: &str = "#examples";
 
 fn content() -> Markup {
     let directions = [("request", "All are requests"), ("response", "All are responses")];
@@ -77,14 +71,4 @@ fn choose(state: State, event: &Event) {
             options.direction = known.into_iter().find(|it| it.key() == key);
         }
     });
-}
-
-/// Closes the menu that the event is in; who used the keyboard is back at its button.
-pub fn close_menu(event: &Event) {
-    if let Some(menu) = browser::closest(event, MENU) {
-        if let Some(button) = menu.first_element_child().filter(|_| event.type_() == "keydown") {
-            browser::focus(&button);
-        }
-        menu.unchecked_into::<HtmlDetailsElement>().set_open(false);
-    }
 }

@@ -1,9 +1,10 @@
 //! Build: choose a telegram, fill it in, take its bytes.
 
 use leptos::prelude::*;
+use maud::{Markup, html};
 use web_sys::Event;
 
-use crate::app::components::{detail, finder, header, made};
+use crate::app::components::{copies, detail, finder, header, made, menu, replies};
 use crate::app::making::Making;
 use crate::app::state::State;
 
@@ -11,12 +12,20 @@ use crate::app::state::State;
 pub fn hear(making: Making, state: State, event: &Event) {
     let kind = event.type_();
     header::hear(&kind, event);
+    menu::hear(&kind, event);
+    copies::hear(state, &kind, event);
     finder::hear(making, state, &kind, event);
     made::hear(making, state, &kind, event);
     detail::hear(state, &kind, event);
 }
 
-const DECODE: detail::Other = detail::Other { document: ".", label: "Open in Decode" };
+/// What can be done with a telegram here.
+fn actions(link: &str, _hex: &str) -> Markup {
+    html! {
+        a.quiet href={ ".#" (link) } { "Open in Decode" }
+        (copies::copies())
+    }
+}
 
 #[component]
 pub fn Build(making: Making, state: State) -> impl IntoView {
@@ -26,8 +35,9 @@ pub fn Build(making: Making, state: State) -> impl IntoView {
             <div class="column">
                 <finder::Finder making />
                 <made::Form making />
+                <replies::Replies making state />
             </div>
-            <detail::Telegram state other=DECODE />
+            <detail::Telegram state actions />
         </main>
     }
 }

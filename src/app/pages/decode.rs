@@ -1,17 +1,19 @@
 //! Decode: paste telegrams, read what they say.
 
 use leptos::prelude::*;
+use maud::{Markup, html};
 use web_sys::Event;
 
-use crate::app::components::{detail, examples, header, input, list, settings};
+use crate::app::components::{detail, examples, header, input, list, menu, settings};
 use crate::app::state::State;
 
 /// An event of the page, for the part that it concerns.
 pub fn hear(state: State, event: &Event) {
     let kind = event.type_();
     match kind.as_str() {
-        "click" if examples::load(state, event) => settings::close_menu(event),
+        "click" if examples::load(state, event) => menu::close(event),
         _ => {
+            menu::hear(&kind, event);
             header::hear(&kind, event);
             settings::hear(state, &kind, event);
             input::hear(state, &kind, event);
@@ -21,7 +23,13 @@ pub fn hear(state: State, event: &Event) {
     }
 }
 
-const BUILD: detail::Other = detail::Other { document: "build.html", label: "Edit in Build" };
+/// What can be done with a telegram here.
+fn actions(link: &str, hex: &str) -> Markup {
+    html! {
+        a.quiet href={ "build.html#" (link) } { "Edit in Build" }
+        button.quiet type="button" data-copy=(hex) { "Copy as hex" }
+    }
+}
 
 #[component]
 pub fn Decode(state: State) -> impl IntoView {
@@ -32,7 +40,7 @@ pub fn Decode(state: State) -> impl IntoView {
                 <input::Input state />
                 <list::Telegrams state />
             </div>
-            <detail::Telegram state other=BUILD />
+            <detail::Telegram state actions />
         </main>
     }
 }

@@ -1,0 +1,70 @@
+//! What can come back to a request.
+
+use crate::field::{Argument, Direction, Message};
+use crate::frame::{Cargo, Content, Frame};
+use crate::message;
+use crate::modbus::{Server, exceptions};
+use crate::profibus::{self, Body, KINDS, Kind, OTHER_KINDS, Refusal, Service};
+
+/// A response to a request.
+pub struct Reply {
+    /// "Exception 2, address not allowed".
+    pub label: Message,
+    pub frame: Box<dyn Frame>,
+}
+
+/// The responses that can follow a request: that of a healthy device first, with zeros for what it would
+/// read, then those that refuse it. None to a broadcast, to a response, and to what is answered
+/// without data.
+pub fn replies(request: &mut dyn Frame, settings: &profibus::Settings) -> Vec<Reply> {
+    let cargo = match request.content() {
+        Content::Modbus { server: Server::All, .. } | Content::Nothing(_) => Vec::new(),
+        Content::Modbus { .. } => registers(request),
+        Content::Profibus { kind, body, .. } => service(kind, body, settings),
+    };
+    let back = |(label, cargo)| request.back(cargo).map(|frame| Reply { label, frame });
+    cargo.into_iter().filter_map(back).collect()
+}
+
+fn registers(request: &mut dyn Frame) -> Vec<(Message, Cargo)> {
+    let Some(pdu) = request.pdu().filter(|pdu| pdu.direction == Direction::Request) else {
+        return Vec::new();
+    };
+    let mut replies = vec![(healthy(), Cargo::Modbus(pdu.reply()))];
+    for code in exceptions() {
+        let (number, name) = (code.value as u8, Argument::Term(code.label));
+        let label = message!("exception {code}, {name}", code = number, name = name);
+        replies.push((label, Cargo::Modbus(pdu.refusal(number))));
+    }
+    replies
+}
+
+fn service(kind: &Kind, body: &dyn Body, settings: &profibus::Settings) -> Vec<(Message, Cargo)> {
+    let same = |other: &&&Kind| {
+        (other.sap, other.spec.label, other.direction) == (kind.sap, kind.spec.label, Direction::Response)
+    };
+    let Some(response) =
+        KINDS.iter().chain(OTHER_KINDS).find(same).filter(|_| kind.direction == Direction::Request)
+    else {
+        return Vec::new();
+    };
+    let answer = |refusal| {
+        let mut answer = (response.new)(settings);
+        if let (Some(channel), Some(asked)) = (answer.channel_mut(), body.channel()) {
+            channel.confirm(asked, refusal);
+        }
+        Cargo::Profibus(response, answer)
+    };
+    let mut replies = vec![(healthy(), answer(None))];
+    if body.channel().is_some_and(|channel| channel.service() != Service::None) {
+        replies.extend(Refusal::all().map(|(refusal, name)| {
+            let (number, name) = (refusal.number(), Argument::Term(name.label));
+            (message!("error {number}, {name}", number = number, name = name), answer(Some(refusal)))
+        }));
+    }
+    replies
+}
+
+fn healthy() -> Message {
+    message!("a healthy device's response")
+}
