@@ -182,7 +182,7 @@ pub fn announce(text: String) {
 pub fn say(text: &str) {
     const SECONDS: u32 = 8_000;
     let show = |text: &str| {
-        if let Some(note) = element::<Element>("said") {
+        if let Some(note) = element::<Element>("toast") {
             note.set_text_content(Some(text));
         }
     };
@@ -229,6 +229,14 @@ pub fn set_field(id: &str, value: &str) {
         } else if field.value() != value {
             field.set_value(value);
         }
+    }
+}
+
+/// Sets a slider to one of the numbers from 0 to `last`.
+pub fn set_range(id: &str, at: usize, last: usize) {
+    if let Some(field) = element::<HtmlInputElement>(id) {
+        let _ = field.set_attribute("max", &last.to_string());
+        field.set_value(&at.to_string());
     }
 }
 

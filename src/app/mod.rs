@@ -1,6 +1,6 @@
 //! The page. It shows what [`tool`](crate::tool) makes of the input, and knows no protocol.
 //!
-//! - `state`: what is read, `making`: what is built, and `setup`: how devices are set up, as signals;
+//! - `state`: what is read, `making`: what is built, and `setup`: how devices are set up, `stepping`: a check while it is followed, as signals;
 //! - `browser`: what the browser is asked for; `address`: what a link and a reload bring back;
 //! - `pages`: the views; `components`: their parts.
 
@@ -11,11 +11,13 @@ mod making;
 mod pages;
 mod setup;
 mod state;
+mod stepping;
 
 use leptos::prelude::*;
 use making::Making;
 use setup::Setup;
 use state::State;
+use stepping::Stepping;
 
 /// Starts the page that reads telegrams.
 pub fn decode() {
@@ -42,4 +44,13 @@ pub fn devices() {
     let setup = Setup::new();
     browser::listen(move |event| pages::devices::hear(setup, event));
     mount_to_body(move || view! { <pages::devices::Devices setup /> });
+}
+
+/// Starts the page that works out checks step by step.
+pub fn check() {
+    browser::tell_of_panics();
+    let stepping = Stepping::new();
+    browser::listen(move |event| pages::check::hear(stepping, event));
+    mount_to_body(move || view! { <pages::check::Check stepping /> });
+    address::keep(stepping);
 }

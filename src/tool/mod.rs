@@ -14,6 +14,7 @@ pub mod link;
 mod offers;
 mod replies;
 pub mod settings;
+pub mod steps;
 mod views;
 
 pub use crate::device::{Block, Draft, PROFILES, Profile, Task};

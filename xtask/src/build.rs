@@ -24,6 +24,7 @@ struct Module {
 const MODULES: &[Module] = &[
     Module { name: "decode", binary: "decode-page" },
     Module { name: "build", binary: "build-page" },
+    Module { name: "check", binary: "check-page" },
     Module { name: "devices", binary: "devices-page" },
 ];
 

@@ -6,6 +6,7 @@ use crate::app::browser::span_text;
 use crate::app::state::Shown;
 use crate::field::{Check, Span, hex, hex_value};
 use crate::tool::Verdict;
+use crate::tool::link::Link;
 
 pub fn check(shown: &Shown) -> Markup {
     let Some(check) = shown.detail.check() else { return unchecked(shown) };
@@ -24,14 +25,14 @@ pub fn check(shown: &Shown) -> Markup {
         html! {
             div.check.good {
                 h3 { "The check is right" }
-                p { (explained) }
+                p { (explained) " " (followed(bytes, &check)) }
             }
         }
     } else {
         html! {
             div.check.error {
                 h3 { "The check does not match" }
-                p { (explained) " Found: " code { (check.found_bytes()) } "." }
+                p { (explained) " Found: " code { (check.found_bytes()) } ". " (followed(bytes, &check)) }
                 p {
                     "Some byte is not what its sender checked, or is missing or too many, or the check itself is \
                      wrong. The check alone cannot tell which: what is said above may be wrong, too."
@@ -42,6 +43,16 @@ pub fn check(shown: &Shown) -> Markup {
             }
         }
     }
+}
+
+/// A link to where the check is worked out step by step.
+fn followed(bytes: &[u8], check: &Check) -> Markup {
+    let link = Link {
+        text: hex(check.covered.of(bytes)),
+        entries: vec![("check".to_owned(), check.kind.to_owned())],
+        ..Link::default()
+    };
+    html! { a href={ "check.html#" (link.write()) } { "Follow it step by step" } }
 }
 
 /// The bytes with the check as it should be.

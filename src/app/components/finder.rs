@@ -52,8 +52,8 @@ const OFFERS: &str = "offers";
 fn content() -> Markup {
     html! {
         div.settings {
-            (list(DEVICE, "Device", "Any", PROFILES.iter().map(|it| (it.key, it.label))))
-            (list(PROTOCOL, "Protocol", "As it is carried", PROTOCOLS.iter().map(|it| (it.key, it.label))))
+            (list(DEVICE, "Device", Some("Any"), PROFILES.iter().map(|it| (it.key, it.label))))
+            (list(PROTOCOL, "Protocol", None, PROTOCOLS.iter().map(|it| (it.key, it.label))))
         }
         label.title for=(FIND) { "What should it do? A name, a function code or an address" }
         input id=(FIND) type="search" autocomplete="off" spellcheck="false" aria-controls=(OFFERS)

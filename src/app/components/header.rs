@@ -41,7 +41,8 @@ pub fn hear(kind: &str, event: &Event) {
 const DEVICES: &str = "devices.html";
 
 /// The views, each a document of its own.
-const VIEWS: [(&str, &str); 3] = [(".", "Decode"), ("build.html", "Build"), (DEVICES, "Devices")];
+const VIEWS: [(&str, &str); 4] =
+    [(".", "Decode"), ("build.html", "Build"), ("check.html", "Check"), (DEVICES, "Devices")];
 
 fn content(here: &str) -> String {
     let chosen = browser::remembered(THEME).unwrap_or_default();
@@ -64,7 +65,7 @@ fn content(here: &str) -> String {
                 }
             }
         }
-        p.said id="said" role="status" {}
+        p.toast id="toast" role="status" {}
     };
     markup.into_string()
 }

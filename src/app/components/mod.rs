@@ -22,6 +22,7 @@ pub mod marks;
 pub mod menu;
 pub mod replies;
 pub mod settings;
+pub mod stepper;
 pub mod strip;
 pub mod views;
 

@@ -26,9 +26,9 @@ pub fn hear(state: State, kind: &str, event: &Event) {
 fn content() -> Markup {
     let directions = [("request", "All are requests"), ("response", "All are responses")];
     html! {
-        (list(PROTOCOL, "Protocol", "As the bytes tell", PROTOCOLS.iter().map(|it| (it.key, it.label))))
-        (list(DIRECTION, "Direction", "As the bytes tell", directions.into_iter()))
-        (list(DEVICE, "Device", "Any", PROFILES.iter().map(|it| (it.key, it.label))))
+        (list(PROTOCOL, "Protocol", Some("As the bytes tell"), PROTOCOLS.iter().map(|it| (it.key, it.label))))
+        (list(DIRECTION, "Direction", Some("As the bytes tell"), directions.into_iter()))
+        (list(DEVICE, "Device", Some("Any"), PROFILES.iter().map(|it| (it.key, it.label))))
         details.menu id="examples" {
             summary { "Examples" }
             div.examples { (examples::examples()) }
@@ -37,18 +37,19 @@ fn content() -> Markup {
     }
 }
 
-/// A list to choose from: what counts where nobody chooses, then the others, each with its key.
+/// A list to choose from: what counts where nobody chooses, if that may be, then the others, each with its
+/// key.
 pub fn list(
     id: &str,
     label: &str,
-    otherwise: &str,
+    otherwise: Option<&str>,
     others: impl Iterator<Item = (&'static str, &'static str)>,
 ) -> Markup {
     html! {
         label {
             span { (label) }
             select id=(id) {
-                option value="" { (otherwise) }
+                @if let Some(otherwise) = otherwise { option value="" { (otherwise) } }
                 @for (key, label) in others {
                     option value=(key) { (label) }
                 }

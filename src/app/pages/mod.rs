@@ -1,5 +1,6 @@
 //! The views, one file each.
 
 pub mod build;
+pub mod check;
 pub mod decode;
 pub mod devices;
