@@ -1,7 +1,7 @@
 //! Turns compiled wasm into the static page.
 //!
 //! `cargo xtask build` runs this in the project's folder as
-//! `bundle <folder> <name>=<wasm file>…`. Each module gets a document of its own from the template
+//! `bundle <folder> <name>=<wasm file>=<style>,<style>…`. Each module gets a document of its own from the template
 //! `page.html`, the first one as `index.html`, the others as `<name>.html`. The style is in `style/`.
 //! The folder is left holding the finished page and nothing else.
 
@@ -28,39 +28,35 @@ fn main() -> ExitCode {
 }
 
 fn run() -> Result<(), String> {
-    let usage = "Usage: bundle <folder> <name>=<wasm file>…";
+    let usage = "Usage: bundle <folder> <name>=<wasm file>=<style>,<style>…";
     let mut arguments = std::env::args().skip(1);
     let folder = PathBuf::from(arguments.next().ok_or(usage)?);
 
     let mut modules = Vec::new();
     for argument in arguments {
-        let (name, path) = argument.split_once('=').ok_or(usage)?;
-        modules.push(Module::read(name, Path::new(path))?);
+        let (name, rest) = argument.split_once('=').ok_or(usage)?;
+        let (path, styles) = rest.rsplit_once('=').ok_or(usage)?;
+        modules.push(Module::read(name, Path::new(path), styles)?);
     }
     if modules.is_empty() {
         return Err(usage.to_owned());
     }
 
-    let mut style = stylesheet(Path::new("style"))?;
-    style.push_str(page::NOTE_STYLE);
-    let style =
-        minifier::css::minify(&style).map_err(|error| format!("The stylesheet has a slip: {error}."))?;
-    let style = hashed("page", "css", style.to_string().into_bytes());
     let icon = hashed("icon", "svg", read(Path::new("style/icon.svg"))?);
     let template =
         String::from_utf8(read(Path::new("page.html"))?).map_err(|_| "page.html is not UTF-8.".to_owned())?;
     let mut files = Vec::new();
     let mut documents = Vec::new();
     for (index, module) in modules.into_iter().enumerate() {
-        let Module { name, glue, wasm } = module;
+        let Module { name, glue, wasm, style } = module;
         let boot = hashed("boot", "js", page::boot(&glue, &wasm)?.into_bytes());
         let links = Links { style: &style, icon: &icon, boot: &boot, glue: &glue, wasm: &wasm };
         let name = if index == 0 { "index" } else { &name };
         let content = page::html(&template, &links)?.into_bytes();
         documents.push(File { name: format!("{name}.html"), content });
-        files.extend([boot, glue, wasm]);
+        files.extend([boot, glue, wasm, style]);
     }
-    files.extend([style, icon]);
+    files.push(icon);
     // Last, so that a page served from this folder during a build finds all it links to.
     files.extend(documents);
     write_all(&folder, &files)
@@ -71,10 +67,11 @@ struct Module {
     name: String,
     glue: File,
     wasm: File,
+    style: File,
 }
 
 impl Module {
-    fn read(name: &str, path: &Path) -> Result<Module, String> {
+    fn read(name: &str, path: &Path, styles: &str) -> Result<Module, String> {
         let says = |error| format!("wasm-bindgen could not read {}: {error:#}", path.display());
         let mut output = Bindgen::new()
             .input_path(path)
@@ -111,6 +108,7 @@ impl Module {
         Ok(Module {
             name: name.to_owned(),
             glue: hashed(name, "js", glue.to_string().into_bytes()),
+            style: hashed(name, "css", stylesheet(styles)?),
             wasm: hashed(name, "wasm", output.wasm_mut().emit_wasm()),
         })
     }
@@ -120,22 +118,19 @@ fn hashed(stem: &str, extension: &str, content: Vec<u8>) -> File {
     File { name: names::hashed(stem, extension, &content), content }
 }
 
-/// All `.css` files of the folder in the order of their names, as one.
-fn stylesheet(folder: &Path) -> Result<String, String> {
-    let mut paths = Vec::new();
-    for path in entries(folder)? {
-        if path.extension().is_some_and(|extension| extension == "css") {
-            paths.push(path);
-        }
-    }
-    paths.sort();
+/// Some files of `style/`, as one small one.
+fn stylesheet(names: &str) -> Result<Vec<u8>, String> {
     let mut text = String::new();
-    for path in paths {
+    for name in names.split(',') {
+        let path = Path::new("style").join(name).with_extension("css");
         let content = String::from_utf8(read(&path)?);
         text.push_str(&content.map_err(|_| format!("{} is not UTF-8.", path.display()))?);
         text.push('\n');
     }
-    Ok(text)
+    text.push_str(page::NOTE_STYLE);
+    let small =
+        minifier::css::minify(&text).map_err(|error| format!("The stylesheet has a slip: {error}."))?;
+    Ok(small.to_string().into_bytes())
 }
 
 /// Writes the files and their compressed copies, then removes whatever else the folder holds.

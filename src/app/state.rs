@@ -47,6 +47,8 @@ pub struct Light {
     pointed: Option<Span>,
     /// Those chosen by tap, click or keyboard.
     chosen: Option<Span>,
+    /// Which byte of them.
+    at: Option<usize>,
 }
 
 impl Light {
@@ -56,6 +58,11 @@ impl Light {
 
     pub fn chosen(self) -> Option<Span> {
         self.chosen
+    }
+
+    /// The byte that is to be explained.
+    pub fn at(self) -> Option<usize> {
+        self.at.or(self.chosen.map(|span| span.from))
     }
 }
 
@@ -167,9 +174,9 @@ impl State {
         self.shine(Light { pointed: span, ..self.light.get_untracked() });
     }
 
-    /// These bytes are chosen, or none.
-    pub fn choose(&self, span: Option<Span>) {
-        self.shine(Light { chosen: span, ..self.light.get_untracked() });
+    /// These bytes are chosen, and one of them, or none.
+    pub fn choose(&self, span: Option<Span>, at: Option<usize>) {
+        self.shine(Light { chosen: span, at, ..self.light.get_untracked() });
     }
 
     fn shine(&self, light: Light) {

@@ -34,7 +34,16 @@ impl Bits {
 
     /// `count` bits from bit `from` that are a number, or have named values.
     pub const fn part(from: u32, count: u32, key: &'static str, label: &'static str) -> Self {
-        Self { key, label, from, count, format: Format::Decimal, names: &[], note: "", reserved: false }
+        Self {
+            key: super::spec::kept_key(key),
+            label,
+            from,
+            count,
+            format: Format::Decimal,
+            names: &[],
+            note: "",
+            reserved: false,
+        }
     }
 
     /// Bits that must be 0.

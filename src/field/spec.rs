@@ -42,6 +42,12 @@ pub struct Spec {
     pub step: u64,
 }
 
+/// Keys are in the program only where something writes or reads them: the page that only shows
+/// telegrams is 3 kB lighter without.
+pub(super) const fn kept_key(key: &'static str) -> &'static str {
+    if cfg!(feature = "keys") { key } else { "" }
+}
+
 /// Specs are constants: the same key and label are the same spec.
 impl PartialEq for Spec {
     fn eq(&self, other: &Self) -> bool {
@@ -160,7 +166,7 @@ pub enum Format {
 impl Spec {
     pub const fn new(key: &'static str, label: &'static str) -> Self {
         Self {
-            key,
+            key: kept_key(key),
             label,
             short: label,
             role: Role::Data,

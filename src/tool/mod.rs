@@ -1,6 +1,7 @@
 //! What the page and the command line offer: plain data in, plain data out.
 
 mod build;
+pub mod byte;
 pub mod copy;
 mod decode;
 mod detail;
@@ -31,4 +32,4 @@ pub use entries::{Change, Entries};
 pub use explain::Explanation;
 pub use offers::{Offer, offers};
 pub use replies::{Reply, replies};
-pub use views::{Kind, View, views};
+pub use views::{Kind, View, guess, views};

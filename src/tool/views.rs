@@ -58,6 +58,35 @@ pub fn views(bytes: &[u8]) -> Vec<View> {
     views
 }
 
+/// What two registers most look like: which kind of number, in which order. A guess: a float of usual
+/// size with few digits, or a small whole number. `None` where nothing or too much looks so.
+pub fn guess(bytes: &[u8]) -> Option<(Kind, Order)> {
+    /// Exponents of floats from 0.001 to 1,000,000, about.
+    const USUAL: std::ops::Range<u64> = 117..147;
+    /// Larger whole numbers are rare in two registers, since one holds up to 65,535.
+    const SMALL: std::ops::Range<u64> = 1..1_000_000;
+    /// So many digits have values that a person set.
+    const FEW: usize = 7;
+    let bytes = bytes.get(..4)?;
+    let float = |order: &Order| {
+        let raw = order.number(bytes);
+        let text = number_text(raw, 4, Format::Float);
+        let digits =
+            text.trim_start_matches(['\u{2212}', '0', '.']).chars().filter(char::is_ascii_digit).count();
+        USUAL.contains(&(raw >> 23 & 0xFF)).then_some(digits)
+    };
+    let floats: Vec<(Order, usize)> =
+        Order::ALL.iter().filter_map(|order| Some((*order, float(order)?))).collect();
+    let shortest = floats.iter().copied().min_by_key(|(_, digits)| *digits);
+    match (shortest, &floats[..]) {
+        (Some((order, ..=FEW)), _) => return Some((Kind::Float, order)),
+        (_, [(order, _)]) => return Some((Kind::Float, *order)),
+        _ => {}
+    }
+    let small = Order::ALL.into_iter().find(|order| SMALL.contains(&order.number(bytes)));
+    small.map(|order| (Kind::Unsigned, order))
+}
+
 fn text(kind: Kind, raw: u64, bytes: &[u8]) -> String {
     let width = bytes.len();
     match kind {
@@ -103,6 +132,21 @@ mod tests {
             let bytes = order.bytes((-5_i64) as u64, 8);
             assert_eq!(seen(&bytes, Kind::Signed, 64, order).unwrap(), "\u{2212}5");
         }
+    }
+
+    #[test]
+    fn the_plausible_order_is_guessed() {
+        for order in Order::ALL {
+            for value in [123.456_f32, -0.5, 20.0, 99.9] {
+                let bytes = order.bytes(value.to_bits().into(), 4);
+                assert_eq!(guess(&bytes), Some((Kind::Float, order)), "{value} {bytes:02X?}");
+            }
+        }
+        assert_eq!(guess(&[0, 0, 1, 0x2C]), Some((Kind::Unsigned, Order::Big)));
+        assert_eq!(guess(&[1, 0x2C, 0, 0]), Some((Kind::Unsigned, Order::LowWordFirst)));
+        assert_eq!(guess(&[0; 4]), None);
+        assert_eq!(guess(&[0xFF; 4]), None);
+        assert_eq!(guess(&[0; 2]), None);
     }
 
     #[test]

@@ -17,15 +17,18 @@ struct Module {
     name: &'static str,
     /// Cargo keeps the name `build` for itself.
     binary: &'static str,
+    features: &'static str,
+    /// Its files in `style/`.
+    styles: &'static str,
 }
 
 /// The page's documents, each with a wasm file of its own: who reads telegrams need not wait for the
 /// forms that build them. The first is `index.html`.
 const MODULES: &[Module] = &[
-    Module { name: "decode", binary: "decode-page" },
-    Module { name: "build", binary: "build-page" },
-    Module { name: "check", binary: "check-page" },
-    Module { name: "devices", binary: "devices-page" },
+    Module { name: "decode", binary: "decode-page", features: "page", styles: "page,telegram,decode" },
+    Module { name: "build", binary: "build-page", features: "page,keys", styles: "page,telegram,form,build" },
+    Module { name: "check", binary: "check-page", features: "page", styles: "page,form,check" },
+    Module { name: "devices", binary: "devices-page", features: "page,keys", styles: "page,form,devices" },
 ];
 
 pub fn run() -> Result {
@@ -37,6 +40,7 @@ pub fn run() -> Result {
         let wasm = compile(module)?;
         let mut argument = OsString::from(format!("{}=", module.name));
         argument.push(wasm);
+        argument.push(format!("={}", module.styles));
         arguments.push(argument);
     }
     steps::run(Command::new(bundler()).args(arguments))?;
@@ -73,7 +77,7 @@ fn compile(module: &Module) -> Result<PathBuf> {
     steps::run(
         tools::cargo()
             .args(["build", "--profile", "page", "--target", tools::WASM])
-            .args(["--no-default-features", "--features", "page"])
+            .args(["--no-default-features", "--features", module.features])
             .args(["--bin", module.binary])
             // Not RUSTFLAGS, which splits at spaces, and a path may have one.
             .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}".as_ref()))

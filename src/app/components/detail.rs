@@ -4,7 +4,7 @@ use leptos::prelude::*;
 use maud::{Markup, html};
 use web_sys::{Element, Event};
 
-use super::{Drawn, check, drawn, examples, fields, layout, strip, views};
+use super::{Drawn, byte, check, drawn, examples, fields, layout, strip, views};
 use crate::app::browser::{self, DETAIL};
 use crate::app::state::{Decoded, Shown, State};
 use crate::field::{Message, Severity, hex};
@@ -22,6 +22,20 @@ pub fn Telegram(state: State, actions: Actions) -> impl IntoView {
             None => welcome(),
         })
     });
+    // What depends on the chosen byte is drawn by itself: the byte keeps the focus.
+    let byte = drawn(move || {
+        let at = state.light.get().at();
+        state.decoded.with(|decoded| match &decoded.shown {
+            Some(shown) => byte::byte(shown, at),
+            None => html! {},
+        })
+    });
+    let tables = drawn(move || {
+        state.decoded.with(|decoded| match &decoded.shown {
+            Some(shown) => tables(shown, decoded),
+            None => html! {},
+        })
+    });
     let layout = drawn(move || {
         state.decoded.with(|decoded| match &decoded.shown {
             Some(shown) => layout::layout(&shown.detail, &decoded.report.layout(shown.index)),
@@ -36,10 +50,13 @@ pub fn Telegram(state: State, actions: Actions) -> impl IntoView {
         })
     });
     let no_registers: Drawn<bool> = Box::new(move || state.decoded.with(|decoded| !has_registers(decoded)));
+    let no_bytes: Drawn<bool> = Box::new(move || state.decoded.with(|decoded| decoded.shown.is_none()));
     let nothing: Drawn<bool> = Box::new(move || state.decoded.with(|decoded| decoded.shown.is_none()));
     view! {
         <section id=DETAIL class="card detail" aria-label="Telegram">
             <div inner_html=reading></div>
+            <div class="byte" aria-live="polite" hidden=no_bytes inner_html=byte></div>
+            <div inner_html=tables></div>
             <details id="views" class="layout" hidden=no_registers>
                 <summary>"Registers in every view"</summary>
                 <div inner_html=registers></div>
@@ -63,7 +80,7 @@ pub fn hear(state: State, kind: &str, event: &Event) {
         _ if inside.is_none() => {}
         "pointerover" => state.point(browser::span(event)),
         "click" => click(state, event),
-        "focusin" if browser::closest(event, STOP).is_some() => state.choose(browser::span(event)),
+        "focusin" if browser::closest(event, STOP).is_some() => choose(state, event),
         "keydown" => go(state, event),
         _ => {}
     }
@@ -79,12 +96,17 @@ fn click(state: State, event: &Event) {
         state.read_as(|options| options.protocol = PROTOCOLS.iter().copied().find(|it| it.key == key));
     } else if let Some(text) = browser::attribute(event, "data-copy") {
         browser::copy(&text);
-    } else if let Some(span) = browser::span(event) {
-        state.choose(Some(span));
+    } else if browser::span(event).is_some() {
+        choose(state, event);
         if let Some(group) = browser::closest(event, "button.group") {
             open_or_close(&group, None);
         }
     }
+}
+
+fn choose(state: State, event: &Event) {
+    let at = browser::attribute(event, "data-at").and_then(|at| at.parse().ok());
+    state.choose(browser::span(event), at);
 }
 
 /// Arrow keys go from cell to cell and from row to row; left and right close and open a group.
@@ -110,7 +132,7 @@ fn go(state: State, event: &Event) {
         "Home" => 0,
         "End" => last,
         "Escape" => {
-            state.choose(None);
+            state.choose(None, None);
             return;
         }
         _ => return,
@@ -149,7 +171,6 @@ fn welcome() -> Markup {
 }
 
 fn reading(shown: &Shown, decoded: &Decoded, actions: Actions) -> Markup {
-    let device = decoded.options.device.map_or("", |device| device.label);
     let telegram = &shown.telegram;
     // What somebody chose needs no reason.
     let by_hand = decoded.options.protocol.is_some() && decoded.options.direction.is_some();
@@ -197,6 +218,13 @@ fn reading(shown: &Shown, decoded: &Decoded, actions: Actions) -> Markup {
             div.actions { (actions(&link(shown, decoded), &hex(shown.bytes()))) }
         }
         (strip::strip(shown))
+    }
+}
+
+/// What comes below the bytes.
+fn tables(shown: &Shown, decoded: &Decoded) -> Markup {
+    let device = decoded.options.device.map_or("", |device| device.label);
+    html! {
         (fields::device(shown, device))
         (fields::fields(shown))
         (check::check(shown))

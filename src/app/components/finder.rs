@@ -69,7 +69,7 @@ fn found(made: &Made) -> Markup {
     let chosen = made.editor.as_ref().map(Editor::label);
     html! {
         @if offers.is_empty() {
-            p.remarks { "Nothing is called so. Try a part of the name, a function code such as 16, or an address such as 0x5F00." }
+            p.more { "Nothing is called so. Try a part of the name, a function code such as 16, or an address such as 0x5F00." }
         }
         ul {
             @for (index, offer) in offers.iter().enumerate().take(SHOWN) {

@@ -5,6 +5,7 @@
 //! no listeners: every event of the page comes to the `hear` of its view and from there to those of the
 //! parts, who know what is theirs by the ids and the attributes `data-…` around the event's target.
 
+pub mod byte;
 pub mod check;
 pub mod copies;
 pub mod detail;

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use crate::app::state::Shown;
 use crate::field::{Order, Span};
-use crate::tool::{View, views};
+use crate::tool::{Kind, View, guess, views};
 
 /// The views of the chosen register, or how to choose one.
 pub fn chosen(shown: &Shown, chosen: Option<Span>) -> Markup {
@@ -14,9 +14,16 @@ pub fn chosen(shown: &Shown, chosen: Option<Span>) -> Markup {
     let Some(from) = from.map(|from| from - (from - registers.from) % 2) else {
         return html! { p { "Choose a register among the bytes or fields to see it here." } };
     };
-    let views = views(Span::new(from, registers.to).of(shown.bytes()));
+    let bytes = Span::new(from, registers.to).of(shown.bytes());
+    let (views, guess) = (views(bytes), guess(bytes));
     html! {
-        p { "Bytes " (from) " and " (from + 1) " by themselves, and with what follows them." }
+        p {
+            "Bytes " (from) " and " (from + 1) " by themselves, and with what follows them."
+            @if let Some((kind, order)) = guess {
+                " With the next two they look like " strong.guess { "a " (kind.name()) " number, " (order.name().0) }
+                ", which is a guess."
+            }
+        }
         table.views {
             tbody {
                 @for view in views.iter().filter(|view| view.bits == 16) {
@@ -28,13 +35,13 @@ pub fn chosen(shown: &Shown, chosen: Option<Span>) -> Markup {
             }
         }
         @for bits in [32, 64] {
-            (table(bits, views.iter().filter(|view| view.bits == bits).collect()))
+            (table(bits, views.iter().filter(|view| view.bits == bits).collect(), guess.filter(|_| bits == 32)))
         }
     }
 }
 
 /// Views of so many bits: a row for each order, a column for each kind.
-fn table(bits: usize, views: Vec<&View>) -> Markup {
+fn table(bits: usize, views: Vec<&View>, guess: Option<(Kind, Order)>) -> Markup {
     let of = |order: Order| views.iter().filter(move |view| view.order == order);
     html! {
         @if !views.is_empty() {
@@ -50,7 +57,9 @@ fn table(bits: usize, views: Vec<&View>) -> Markup {
                         @let (letters, words) = order.name();
                         tr {
                             th scope="row" { (letters) " " small { (words) } }
-                            @for view in of(order) { td { (view.text) } }
+                            @for view in of(order) {
+                                td class=[(guess == Some((view.kind, order))).then_some("guess")] { (view.text) }
+                            }
                         }
                     }
                 }

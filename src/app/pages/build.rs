@@ -31,7 +31,7 @@ fn actions(link: &str, _hex: &str) -> Markup {
 pub fn Build(making: Making, state: State) -> impl IntoView {
     view! {
         <header::Header here="build.html" />
-        <main id="main" class="views" tabindex="-1">
+        <main id="main" class="panes" tabindex="-1">
             <div class="column">
                 <finder::Finder making />
                 <made::Form making />

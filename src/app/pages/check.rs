@@ -17,7 +17,7 @@ pub fn hear(stepping: Stepping, event: &Event) {
 pub fn Check(stepping: Stepping) -> impl IntoView {
     view! {
         <header::Header here="check.html" />
-        <main id="main" class="views single" tabindex="-1">
+        <main id="main" class="panes single" tabindex="-1">
             <stepper::Stepper stepping />
         </main>
     }

@@ -35,7 +35,7 @@ fn actions(link: &str, hex: &str) -> Markup {
 pub fn Decode(state: State) -> impl IntoView {
     view! {
         <header::Header here="." />
-        <main id="main" class="views" tabindex="-1">
+        <main id="main" class="panes" tabindex="-1">
             <div class="column">
                 <input::Input state />
                 <list::Telegrams state />

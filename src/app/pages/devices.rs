@@ -22,7 +22,7 @@ pub fn Devices(setup: Setup) -> impl IntoView {
     });
     view! {
         <header::Header here="devices.html" />
-        <main id="main" class="views even" tabindex="-1">
+        <main id="main" class="panes even" tabindex="-1">
             <section class="card form plain" aria-label="Settings of the devices" inner_html=form></section>
             <device_file::DeviceFile setup />
         </main>
