@@ -20,6 +20,9 @@ pub const PHONE: (u32, u32) = (390, 844);
 /// The narrowest page that must do without scrolling sideways (WCAG 2.2, 1.4.10).
 pub const NARROW: (u32, u32) = (320, 640);
 
+/// Every document of the page.
+pub const DOCUMENTS: [&str; 5] = ["", "build.html", "check.html", "devices.html", "sheet.html"];
+
 /// A page of its own in a browser of its own.
 pub struct Page {
     pub driver: WebDriver,
@@ -57,6 +60,47 @@ impl Page {
         page.driver.goto(format!("{}{document}", setting("BUSLENS_URL"))).await?;
         page.one("#main").await?;
         Ok(page)
+    }
+
+    /// Goes to another document of the page, or to a link in it.
+    pub async fn go(&self, document: &str) -> Result {
+        // A link that differs behind its `#` only would load nothing.
+        self.driver.goto("about:blank").await?;
+        self.driver.goto(format!("{}{document}", setting("BUSLENS_URL"))).await?;
+        self.one("#main").await?;
+        self.settle().await
+    }
+
+    /// What stands behind the `#` of the address, once it has followed what is shown.
+    pub async fn fragment(&self) -> Result<String> {
+        tokio::time::sleep(Duration::from_millis(800)).await;
+        let fragment = self.value("return location.hash").await?;
+        Ok(fragment.as_str().unwrap_or_default().to_owned())
+    }
+
+    /// Waits until `css` finds an element with `text` in it.
+    pub async fn until(&self, css: &str, text: &str) -> Result {
+        for _ in 0..200 {
+            if self.texts(css).await.unwrap_or_default().iter().any(|found| found.contains(text)) {
+                return Ok(());
+            }
+            tokio::time::sleep(Duration::from_millis(25)).await;
+        }
+        panic!("no {css} says {text:?}: {:?}", self.texts(css).await?);
+    }
+
+    /// The input of Decode.
+    pub async fn input(&self) -> Result<String> {
+        let value = self.value("return document.getElementById('input').value").await?;
+        Ok(value.as_str().unwrap_or_default().to_owned())
+    }
+
+    /// The bytes of the telegram that is shown.
+    pub async fn shown(&self) -> Result<String> {
+        self.settle().await?;
+        let cells = "return [...document.querySelectorAll('.strip [data-at]')].map((cell) => \
+                     cell.textContent.slice(0, 2)).join(' ')";
+        Ok(self.value(cells).await?.as_str().unwrap_or_default().to_owned())
     }
 
     /// Closes the browser, whose console must have stayed empty.
@@ -158,6 +202,25 @@ impl Page {
     pub async fn allow_clipboard(&self) -> Result {
         let permissions = json!({ "permissions": ["clipboardReadWrite", "clipboardSanitizedWrite"] });
         self.driver.cdp().send_raw("Browser.grantPermissions", permissions).await.map(drop)
+    }
+
+    /// Clicks what saves a file, and says where the file is.
+    pub async fn saved(&self, css: &str) -> Result<PathBuf> {
+        let folder = tempfile::tempdir()?.keep();
+        let to = json!({ "behavior": "allow", "downloadPath": folder });
+        self.driver.cdp().send_raw("Browser.setDownloadBehavior", to).await?;
+        self.click(css).await?;
+        for _ in 0..200 {
+            tokio::time::sleep(Duration::from_millis(25)).await;
+            let found = std::fs::read_dir(&folder)?.flatten().map(|entry| entry.path());
+            let whole = |path: &PathBuf| {
+                path.extension().is_some_and(|it| it == "txt" || it == "csv" || it == "jsonl")
+            };
+            if let Some(path) = found.into_iter().find(whole) {
+                return Ok(path);
+            }
+        }
+        panic!("{css} saves no file");
     }
 
     pub async fn clipboard(&self) -> Result<String> {

@@ -250,3 +250,68 @@ async fn hundred_thousand_characters_are_fine() -> Result {
     assert_eq!(page.text("div.check h3").await?, "The check is right");
     page.close().await
 }
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_byte_is_explained() -> Result {
+    let page = Page::open(DESKTOP, false).await?;
+    page.one("#device option[value=memograph-rsg45]").await?.click().await?;
+    page.paste("01 03 00 C8 00 03 84 35\n01 03 06 00 80 42 F6 E9 79 5A 93").await?;
+    assert!(page.text(".byte").await?.contains("Choose a byte"));
+    page.click("[data-at='6']").await?;
+    let said = page.text(".byte").await?;
+    for part in [
+        "Byte 6: F6h, 246, 1111 0110",
+        "Byte 2 of 2 of Register 201. It counts 246 × 1 = 246, and all of them 17142.",
+        "Byte 2 of 4 of Value.",
+        "2^(133 − 127) × 1.929 = 123.456",
+        "Memograph M RSG45 Modbus supplement, 2.6.14",
+    ] {
+        assert!(said.contains(part), "{part} is not in {said}");
+    }
+    // The byte keeps the focus, and the arrow keys explain the next ones.
+    page.press(Key::Right + "").await?;
+    page.until(".byte", "Byte 7: E9h").await?;
+    assert_eq!(page.value("return document.activeElement.dataset.at").await?, json!("7"));
+    page.click("#views summary").await?;
+    page.click("[data-at='5']").await?;
+    assert_eq!(page.texts("#views .guess").await?, ["a float number, ABCD", "123.456"]);
+    page.close().await
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn telegrams_are_pasted_and_dropped_anywhere() -> Result {
+    let page = Page::open(DESKTOP, false).await?;
+    let script = "const data = new DataTransfer(); data.setData('text', '01 03 00 C8 00 03 84 35'); \
+        document.body.dispatchEvent(new ClipboardEvent('paste', { clipboardData: data, bubbles: true }))";
+    page.driver.execute(script, vec![]).await?;
+    page.until(".detail h2", "Ask unit 1").await?;
+    let script = "const data = new DataTransfer(); data.items.add(new File(['05 06 0C 90 04 01 48 33'], 'log.txt')); \
+        const drop = new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }); \
+        document.querySelector('.detail').dispatchEvent(drop); return drop.defaultPrevented";
+    assert_eq!(page.value(script).await?, json!(true), "the browser stays here");
+    page.until(".detail h2", "unit 5").await?;
+    // What was there before is one undo away.
+    page.driver
+        .execute("document.getElementById('input').focus(); document.execCommand('undo')", vec![])
+        .await?;
+    assert_eq!(page.input().await?, "01 03 00 C8 00 03 84 35");
+    page.driver.execute("document.getElementById('list').focus()", vec![]).await?;
+    page.press("?").await?;
+    assert!(page.text("#keys").await?.contains("Arrow keys"));
+    page.press(Key::Escape + "").await?;
+    page.press("/").await?;
+    assert_eq!(page.value("return document.activeElement.id").await?, json!("input"));
+    page.close().await
+}
+
+/// From opening the page to the first telegram read, as the browser measures it.
+#[tokio::test(flavor = "multi_thread")]
+async fn the_first_telegram_is_read_within_a_second() -> Result {
+    let page = Page::open(DESKTOP, false).await?;
+    page.go("#text=01+03+00+C8+00+03+84+35").await?;
+    page.until(".detail h2", "Ask unit 1").await?;
+    let script = "const done = arguments[0]; new PerformanceObserver((list) => done(Math.max(...list.getEntries().map((entry) => entry.startTime)))).observe({ type: 'largest-contentful-paint', buffered: true })";
+    let painted: f64 = page.driver.execute_async(script, vec![]).await?.convert()?;
+    println!("first telegram painted {painted:.0} ms after opening the page");
+    page.close().await
+}

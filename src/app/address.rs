@@ -8,7 +8,7 @@ use leptos::prelude::*;
 use leptos::task::spawn_local;
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::JsFuture;
-use web_sys::js_sys::{ArrayBuffer, Uint8Array};
+use web_sys::js_sys::{ArrayBuffer, Uint8Array, decode_uri_component, encode_uri_component};
 use web_sys::{ReadableWritablePair, Response};
 
 use super::browser;
@@ -19,7 +19,7 @@ const LONGEST_PLAIN: usize = 400;
 /// Mail programs and chats cut or refuse longer ones.
 const LONGEST: usize = 30_000;
 /// What is longer is not kept for the next visit: browsers allow a few megabytes in all.
-const LONGEST_KEPT: usize = 1_000_000;
+const LONGEST_KEPT: usize = 2_000_000;
 /// Stands before what is compressed, in base64url.
 const COMPRESSED: &str = "z=";
 /// Has no header.
@@ -65,7 +65,7 @@ pub fn keep(page: impl Shows) {
     KEEPER.set(Some(Keeper { page, written: String::new(), step: Step::Typed, waiting: None }));
     spawn_local(async {
         if !follow().await {
-            let mut link = browser::remembered(page.key()).map(|kept| Link::read(&kept)).unwrap_or_default();
+            let mut link = browser::remembered(page.key()).map(|kept| read(&kept)).unwrap_or_default();
             link.options.settings = kept_settings(&browser::remembered(SETTINGS).unwrap_or_default());
             page.follow(link);
             renew(Step::Typed);
@@ -99,7 +99,7 @@ async fn follow() -> bool {
         return false;
     };
     match plain {
-        Some(plain) if plain.contains('=') => page.follow(Link::read(&plain)),
+        Some(plain) if plain.contains('=') => page.follow(read(&plain)),
         Some(_) => return false,
         None => browser::say("This link is damaged, or was cut on its way: what it held cannot be shown."),
     }
@@ -124,7 +124,7 @@ pub fn renew(step: Step) {
 /// Writes what is shown into the address, and into the browser's store for the next visit.
 async fn write() {
     let Some(page) = KEEPER.with_borrow(|keeper| Some(keeper.as_ref()?.page)) else { return };
-    let fragment = page.link().write();
+    let fragment = fragment(&page.link());
     browser::remember(page.key(), if fragment.len() > LONGEST_KEPT { "" } else { &fragment });
     let fragment = packed(fragment).await.unwrap_or_default();
     KEEPER.with_borrow_mut(|keeper| {
@@ -149,7 +149,7 @@ pub fn copy_link() {
         let Some(page) = KEEPER.with_borrow(|keeper| Some(keeper.as_ref()?.page)) else { return };
         let address = window().location().href().unwrap_or_default();
         let address = address.split('#').next().unwrap_or_default();
-        match packed(page.link().write()).await {
+        match packed(fragment(&page.link())).await {
             Some(fragment) => {
                 browser::copy(&format!("{address}#{fragment}"));
                 browser::say("The link is copied. It holds all that is shown; no server sees it.");
@@ -160,6 +160,23 @@ pub fn copy_link() {
             ),
         }
     });
+}
+
+/// What stands behind the `#` of a link.
+pub fn fragment(link: &Link) -> String {
+    let encoded = |text: &str| String::from(encode_uri_component(text)).replace("%20", "+");
+    let pairs: Vec<String> =
+        link.pairs().iter().map(|(key, value)| format!("{}={}", encoded(key), encoded(value))).collect();
+    pairs.join("&")
+}
+
+/// The link that [`fragment`] wrote; what is damaged is left out.
+fn read(fragment: &str) -> Link {
+    let decoded = |text: &str| decode_uri_component(&text.replace('+', " ")).ok().map(String::from);
+    Link::read(fragment.split('&').filter_map(|pair| {
+        let (key, value) = pair.split_once('=')?;
+        Some((decoded(key)?, decoded(value)?))
+    }))
 }
 
 fn here() -> String {

@@ -10,8 +10,8 @@ use wasm_bindgen::closure::Closure;
 use wasm_bindgen_futures::JsFuture;
 use web_sys::js_sys::Array;
 use web_sys::{
-    Blob, Element, Event, FocusEvent, HtmlAnchorElement, HtmlDocument, HtmlElement, HtmlInputElement,
-    HtmlSelectElement, HtmlTextAreaElement, KeyboardEvent, Url,
+    Blob, ClipboardEvent, DragEvent, Element, Event, FocusEvent, HtmlAnchorElement, HtmlDocument,
+    HtmlElement, HtmlInputElement, HtmlSelectElement, HtmlTextAreaElement, KeyboardEvent, Url,
 };
 
 use crate::field::Span;
@@ -40,11 +40,14 @@ pub fn listen(hear: impl Fn(&Event) + 'static) {
     for kind in [
         "change",
         "click",
+        "dragover",
+        "drop",
         "focusin",
         "focusout",
         "input",
         "keydown",
         "keyup",
+        "paste",
         "pointerleave",
         "pointerover",
         "scroll",
@@ -88,6 +91,11 @@ pub fn copy(text: &str) {
     }
 }
 
+/// Opens the browser's window for printing.
+pub fn print() {
+    let _ = window().print();
+}
+
 /// Gives `text` to the browser as a file to keep.
 pub fn download(name: &str, text: &str) {
     let blob = Blob::new_with_str_sequence(&Array::of1(&text.into()));
@@ -101,18 +109,52 @@ pub fn download(name: &str, text: &str) {
     let _ = Url::revoke_object_url(&address);
 }
 
-/// Reads the file that was chosen in the field of the event, and calls `then` with its name and text.
+/// Reads the file that was chosen or dropped, and calls `then` with its name and text.
 pub fn read_file(event: &Event, then: impl FnOnce(String, String) + 'static) {
+    /// Longer files would stop the page for seconds.
+    const LONGEST: f64 = 5e6;
     let field = event.target().and_then(|target| target.dyn_into::<HtmlInputElement>().ok());
-    let Some(field) = field else { return };
-    let file = field.files().and_then(|files| files.get(0));
-    if let Some(file) = file {
-        spawn_local(async move {
-            let text = JsFuture::from(file.text()).await.ok().and_then(|text| text.as_string());
-            then(file.name(), text.unwrap_or_default());
-            // The same file can be chosen again.
+    let dropped = event.dyn_ref::<DragEvent>().and_then(DragEvent::data_transfer);
+    let files = dropped.and_then(|dropped| dropped.files()).or_else(|| field.as_ref()?.files());
+    let Some(file) = files.and_then(|files| files.get(0)) else { return };
+    if file.size() > LONGEST {
+        say(&format!("{} has more than 5 MB, which the page does not read yet.", file.name()));
+        return;
+    }
+    spawn_local(async move {
+        let text = JsFuture::from(file.text()).await.ok().and_then(|text| text.as_string());
+        then(file.name(), text.unwrap_or_default());
+        // The same file can be chosen again.
+        if let Some(field) = field {
             field.set_value("");
-        });
+        }
+    });
+}
+
+/// The text that was pasted or dropped, if it was one.
+pub fn pasted(event: &Event) -> Option<String> {
+    let pasted = event.dyn_ref::<ClipboardEvent>().and_then(ClipboardEvent::clipboard_data);
+    let data = pasted.or_else(|| event.dyn_ref::<DragEvent>()?.data_transfer())?;
+    data.get_data("text").ok().filter(|text| !text.is_empty())
+}
+
+/// Whether the event is of something that text is typed into.
+pub fn is_field(event: &Event) -> bool {
+    closest(event, "textarea, input:not([type=checkbox], [type=range], [type=file])").is_some()
+}
+
+/// Moves the focus to the first element that `selector` finds.
+pub fn focus_first(selector: &str) {
+    if let Some(element) = document().query_selector(selector).ok().flatten() {
+        focus(&element);
+    }
+}
+
+/// Clicks the element that `selector` finds.
+pub fn click(selector: &str) {
+    let found = document().query_selector(selector).ok().flatten();
+    if let Some(element) = found.as_ref().and_then(|element| element.dyn_ref::<HtmlElement>()) {
+        element.click();
     }
 }
 
@@ -128,6 +170,9 @@ fn copy_by_selection(text: &str) {
         area.remove();
     }
 }
+
+/// The id of the field that a file is chosen in.
+pub const FILE: &str = "file";
 
 /// The ids of the input, of the list's scrolling part and of the telegram with all its details.
 pub const INPUT: &str = "input";
@@ -240,6 +285,13 @@ pub fn set_range(id: &str, at: usize, last: usize) {
     }
 }
 
+/// Hides the element with this id, or shows it.
+pub fn hide(id: &str, hidden: bool) {
+    if let Some(element) = element::<Element>(id) {
+        let _ = element.toggle_attribute_with_force("hidden", hidden);
+    }
+}
+
 /// Puts `text` into the element with this id.
 pub fn set_text(id: &str, text: &str) {
     if let Some(element) = element::<Element>(id) {
@@ -307,6 +359,36 @@ pub fn keep_in_sight(index: usize) {
     let top = index as i32 * row;
     let bottom = top + row - list.client_height();
     list.set_scroll_top(list.scroll_top().min(top).max(bottom));
+}
+
+/// Makes `pieces` the children of the element with this id, where those of `before` are so far. Only what
+/// differs is drawn: most keystrokes change a few of hundreds.
+pub fn redraw(id: &str, before: &[String], pieces: &[String]) {
+    let Some(root) = element::<Element>(id) else { return };
+    let children = all(&root, ":scope > *");
+    let changed = before.iter().zip(pieces).filter(|(old, new)| old != new).count();
+    if children.len() != before.len() || changed > pieces.len() / 2 {
+        root.set_inner_html(&pieces.concat());
+        return;
+    }
+    for (index, child) in children.iter().enumerate() {
+        match pieces.get(index) {
+            Some(piece) if *piece == before[index] => {}
+            Some(piece) => child.set_outer_html(piece),
+            None => child.remove(),
+        }
+    }
+    if let Some(more) = pieces.get(before.len()..) {
+        let _ = root.insert_adjacent_html("beforeend", &more.concat());
+    }
+    // The tab key leads to one of the stops, which may have been redrawn.
+    let stops = all(&root, "[data-stop]");
+    if let Some(first) = stops.first()
+        && stops.iter().filter(|stop| stop.get_attribute("tabindex").as_deref() == Some("0")).count() != 1
+    {
+        stops.iter().for_each(|stop| drop(stop.set_attribute("tabindex", "-1")));
+        let _ = first.set_attribute("tabindex", "0");
+    }
 }
 
 /// All elements below `root` that `selector` fits.

@@ -54,3 +54,12 @@ pub fn check() {
     mount_to_body(move || view! { <pages::check::Check stepping /> });
     address::keep(stepping);
 }
+
+/// Starts the page that prints telegrams and exports them.
+pub fn sheet() {
+    browser::tell_of_panics();
+    let state = State::new();
+    browser::listen(move |event| pages::sheet::hear(state, event));
+    mount_to_body(move || view! { <pages::sheet::Sheet state /> });
+    address::keep(state);
+}

@@ -124,7 +124,7 @@ impl Detail {
     fn ask_registers(&mut self, profile: &'static Profile, settings: &device::Settings, pdu: &Pdu) {
         let function = pdu.function & !EXCEPTION;
         if !profile.functions.is_empty() && !profile.functions.contains(&function) {
-            let span = self.place(|spec| spec.key == "function").unwrap_or_default();
+            let span = self.place(|spec| spec.label == "Function code").unwrap_or_default();
             let message = message!("the device's manual does not list function {f}", f = function);
             self.device.problems.push(Problem::warning("function-not-listed", span, message));
         }
@@ -154,8 +154,8 @@ impl Detail {
         }
         if let Some(process) = body.process() {
             let output = process.side == Side::Outputs;
-            let place = if output { "outputs" } else { "inputs" };
-            let span = self.place(|spec| spec.key == place).unwrap_or_default();
+            let place = if output { "Outputs" } else { "Inputs" };
+            let span = self.place(|spec| spec.label == place).unwrap_or_default();
             let order = if process.swapped { Order::Little } else { Order::Big };
             let process = Process { output, bytes: span.of(bytes), span, order };
             let words = profile.process(&process, settings);
@@ -191,13 +191,13 @@ impl Detail {
         };
         let value = channel.length().zip(channel.value());
         let value = value.map(|(length, value)| Order::Big.bytes(value.into(), length));
-        let place = if value.is_some() { "value" } else { "index" };
-        let span = self.place(|spec| spec.key == place).unwrap_or_default();
+        let place = if value.is_some() { "Value" } else { "Index" };
+        let span = self.place(|spec| spec.label == place).unwrap_or_default();
         let value = value.as_deref().map(|value| (value, Order::Big));
         profile.parameter(channel.index, channel.subindex, access, value, span)
     }
 
-    /// Where the first field of such a spec stands.
+    /// Where the first field of such a spec stands. The page that shows telegrams has no keys: labels tell.
     fn place(&self, wanted: impl Fn(&'static Spec) -> bool) -> Option<Span> {
         place(&self.fields, wanted)
     }

@@ -4,10 +4,11 @@ use super::build::{build, does_not_carry, slot};
 use super::link::Link;
 use super::{Change, Entries, Offer, Options, Settings, decode, offers, replies};
 use crate::device::{Draft, Task};
-use crate::field::{Argument, Direction, Message, Role, Spec, hex};
+use crate::field::{Argument, Direction, Message, Role, Spec, hex, problems};
 use crate::frame::{self, Cargo, Frame, PROTOCOLS, Protocol};
 use crate::message;
 use crate::modbus::Pdu;
+use crate::walk::form::Content;
 use crate::walk::{self, Deviations, Telegram, Walk, Walker};
 
 /// A telegram, or what is to be asked of a device, with its [`Entries`].
@@ -75,7 +76,34 @@ impl Editor {
                 (Direction::Request, Subject::Task(Asking { unit, task, draft, settings }))
             }
         };
-        Ok(Self::with(subject, Deviations::default(), protocol, direction))
+        let mut editor = Self::with(subject, Deviations::default(), protocol, direction);
+        editor.fill_lists(settings);
+        Ok(editor)
+    }
+
+    /// Gives each list an item, where the telegram is not right without.
+    fn fill_lists(&mut self, settings: &Settings) {
+        let mut paths = Vec::new();
+        self.entries.form.visit(&mut |entry| {
+            if matches!(entry.content, Content::List { .. }) {
+                paths.push(entry.path.clone());
+            }
+        });
+        for path in paths {
+            let before = self.mistakes(settings);
+            self.edit(&path, Change::Add);
+            if self.mistakes(settings) >= before {
+                self.edit(&path, Change::Remove(0));
+            }
+        }
+    }
+
+    /// How many problems the telegram has.
+    fn mistakes(&mut self, settings: &Settings) -> usize {
+        self.bytes().map_or(0, |bytes| {
+            let mut frame = (self.protocol.expect)(&bytes, self.direction, &settings.frame);
+            problems(&walk::read(frame.as_mut(), &bytes).fields).len()
+        })
     }
 
     /// A telegram that there is, faults included: [`bytes`](Self::bytes) gives the same bytes again.
@@ -271,7 +299,7 @@ static UNIT: Spec = Spec::new("unit", "Unit or station").role(Role::Address).not
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tool::{Content, PROFILES};
+    use crate::tool::PROFILES;
 
     fn editor(request: &[u8]) -> Editor {
         Editor::of(request, PROTOCOLS[0], Direction::Request, &Settings::default())
@@ -347,7 +375,7 @@ mod tests {
         let mut editor = Editor::of(&faulty, PROTOCOLS[0], Direction::Response, &settings);
         editor.edit("unit", Change::Enter("0x11"));
         editor.edit("values.0.value", Change::Enter("seven"));
-        let link = Link::read(&editor.link(&settings).write());
+        let link = Link::read(editor.link(&settings).pairs());
         let mut again = Editor::follow(&link).unwrap();
         assert_eq!(again.bytes(), editor.bytes());
         assert_eq!(text(&again, "unit"), "0x11");
@@ -359,7 +387,7 @@ mod tests {
         let mut editor = Editor::new(offer, 5, PROTOCOLS[0], &settings).unwrap();
         editor.edit("number", Change::Enter("6"));
         editor.edit("content.value", Change::Enter("123.456"));
-        let link = Link::read(&editor.link(&settings).write());
+        let link = Link::read(editor.link(&settings).pairs());
         let mut again = Editor::follow(&link).unwrap();
         assert_eq!(again.bytes(), editor.bytes());
         assert!(Editor::follow(&Link::default()).is_none());

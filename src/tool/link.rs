@@ -1,5 +1,5 @@
-//! What a page shows, in the part of a link behind `#`, which no server sees: `key=value&…`, in the
-//! encoding of web forms.
+//! What a page shows, for the part of a link behind `#`, which no server sees. It is `key=value&…` in the
+//! encoding of web forms, which the page leaves to the browser; here are the pairs.
 //!
 //! | key | what it says |
 //! | --- | --- |
@@ -12,8 +12,6 @@
 //!
 //! What is missing is as when nobody chose. Unknown keys are passed over: a newer page may have made
 //! the link.
-
-use form_urlencoded::{Serializer, parse};
 
 use super::{Options, PROFILES, PROTOCOLS, settings};
 use crate::field::{Direction, hex};
@@ -37,13 +35,13 @@ impl Link {
         Self { text, options, ..Self::default() }
     }
 
-    /// Reads the part behind `#`.
-    pub fn read(fragment: &str) -> Self {
+    /// Reads the pairs of the part behind `#`.
+    pub fn read(pairs: impl IntoIterator<Item = (String, String)>) -> Self {
         let mut link = Self::default();
-        for (key, value) in parse(fragment.as_bytes()) {
+        for (key, value) in pairs {
             let options = &mut link.options;
-            match &*key {
-                "text" => link.text = value.into_owned(),
+            match key.as_str() {
+                "text" => link.text = value,
                 "protocol" => options.protocol = PROTOCOLS.iter().copied().find(|it| it.key == value),
                 "direction" => {
                     let both = [Direction::Request, Direction::Response];
@@ -52,10 +50,10 @@ impl Link {
                 "device" => options.device = PROFILES.iter().copied().find(|it| it.key == value),
                 "settings" => options.settings = kept_settings(&value),
                 "telegram" => link.telegram = value.parse().unwrap_or(1_usize).saturating_sub(1),
-                "task" => link.task = Some(value.into_owned()),
+                "task" => link.task = Some(value),
                 _ => {
                     if let Some(path) = key.strip_prefix('.') {
-                        link.entries.push((path.to_owned(), value.into_owned()));
+                        link.entries.push((path.to_owned(), value));
                     }
                 }
             }
@@ -63,28 +61,23 @@ impl Link {
         link
     }
 
-    /// The part behind `#`; nothing for a page as it is at first.
-    pub fn write(&self) -> String {
-        let mut written = Serializer::new(String::new());
-        let mut add = |key: &str, value: &str| {
-            if !value.is_empty() {
-                written.append_pair(key, value);
-            }
-        };
+    /// The pairs for the part behind `#`; none for a page as it is at first.
+    pub fn pairs(&self) -> Vec<(String, String)> {
         let Options { protocol, direction, device, settings } = &self.options;
-        add("device", device.map_or("", |it| it.key));
-        add("protocol", protocol.map_or("", |it| it.key));
-        add("direction", direction.map_or("", Direction::key));
-        add("settings", &keep_settings(settings));
-        if self.telegram > 0 {
-            add("telegram", &(self.telegram + 1).to_string());
-        }
-        add("task", self.task.as_deref().unwrap_or_default());
-        add("text", &self.text);
-        for (path, text) in &self.entries {
-            written.append_pair(&format!(".{path}"), text);
-        }
-        written.finish()
+        let telegram = if self.telegram > 0 { (self.telegram + 1).to_string() } else { String::new() };
+        let pairs = [
+            ("device", device.map_or("", |it| it.key)),
+            ("protocol", protocol.map_or("", |it| it.key)),
+            ("direction", direction.map_or("", Direction::key)),
+            ("settings", &keep_settings(settings)),
+            ("telegram", &telegram),
+            ("task", self.task.as_deref().unwrap_or_default()),
+            ("text", &self.text),
+        ];
+        let said = pairs.iter().filter(|(_, value)| !value.is_empty());
+        let said = said.map(|(key, value)| ((*key).to_owned(), (*value).to_owned()));
+        let entries = self.entries.iter().map(|(path, text)| (format!(".{path}"), text.clone()));
+        said.chain(entries).collect()
     }
 }
 
@@ -118,7 +111,7 @@ mod tests {
             task: Some("write Batch".to_owned()),
             entries: vec![("values.0.value".to_owned(), String::new())],
         };
-        let again = Link::read(&link.write());
+        let again = Link::read(link.pairs());
         assert_eq!(again.text, link.text);
         assert_eq!(again.options.direction, link.options.direction);
         assert_eq!(again.options.protocol.map(|it| it.key), Some(PROTOCOLS[1].key));
@@ -130,16 +123,21 @@ mod tests {
     #[test]
     fn a_telegram_has_a_short_link() {
         let link = Link::to("01 03 00 C8 00 03 84 35".to_owned(), Options::default());
-        assert_eq!(link.write(), "text=01+03+00+C8+00+03+84+35");
-        assert_eq!(Link::default().write(), "");
+        assert_eq!(link.pairs(), [("text".to_owned(), link.text.clone())]);
+        assert_eq!(Link::default().pairs(), []);
     }
 
     #[test]
-    fn whatever_stands_behind_the_sign_is_a_link() {
-        for fragment in
-            ["", "main", "&&=&", "telegram=no&protocol=telex&.=&%zz", "settings=xyz", "telegram=0"]
-        {
-            let link = Link::read(fragment);
+    fn whatever_stands_in_it_is_a_link() {
+        for (key, value) in [
+            ("", ""),
+            ("telegram", "no"),
+            ("protocol", "telex"),
+            (".", ""),
+            ("settings", "xyz"),
+            ("telegram", "0"),
+        ] {
+            let link = Link::read([(key.to_owned(), value.to_owned())]);
             assert!(link.text.is_empty() && link.telegram == 0 && link.options.protocol.is_none());
         }
     }

@@ -1,8 +1,10 @@
 //! What the page and the command line offer: plain data in, plain data out.
 
+pub mod annotated;
 mod build;
 pub mod byte;
 pub mod copy;
+pub mod csv;
 mod decode;
 mod detail;
 mod editor;

@@ -28,6 +28,7 @@ const MODULES: &[Module] = &[
     Module { name: "decode", binary: "decode-page", features: "page", styles: "page,telegram,decode" },
     Module { name: "build", binary: "build-page", features: "page,keys", styles: "page,telegram,form,build" },
     Module { name: "check", binary: "check-page", features: "page", styles: "page,form,check" },
+    Module { name: "sheet", binary: "sheet-page", features: "page,keys", styles: "page,form,sheet" },
     Module { name: "devices", binary: "devices-page", features: "page,keys", styles: "page,form,devices" },
 ];
 

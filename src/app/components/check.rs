@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use crate::app::address::fragment;
 use crate::app::browser::span_text;
 use crate::app::state::Shown;
 use crate::field::{Check, Span, hex, hex_value};
@@ -52,7 +53,7 @@ fn followed(bytes: &[u8], check: &Check) -> Markup {
         entries: vec![("check".to_owned(), check.kind.to_owned())],
         ..Link::default()
     };
-    html! { a href={ "check.html#" (link.write()) } { "Follow it step by step" } }
+    html! { a href={ "check.html#" (fragment(&link)) } { "Follow it step by step" } }
 }
 
 /// The bytes with the check as it should be.

@@ -1,10 +1,13 @@
 //! One telegram: what it says, its bytes, its fields, its check.
 
+use std::cell::RefCell;
+
 use leptos::prelude::*;
 use maud::{Markup, html};
 use web_sys::{Element, Event};
 
 use super::{Drawn, byte, check, drawn, examples, fields, layout, strip, views};
+use crate::app::address::fragment;
 use crate::app::browser::{self, DETAIL};
 use crate::app::state::{Decoded, Shown, State};
 use crate::field::{Message, Severity, hex};
@@ -16,10 +19,17 @@ pub type Actions = fn(&str, &str) -> Markup;
 
 #[component]
 pub fn Telegram(state: State, actions: Actions) -> impl IntoView {
+    let before = RefCell::new(Pieces::default());
     let reading = drawn(move || {
-        state.decoded.with(|decoded| match &decoded.shown {
-            Some(shown) => reading(shown, decoded, actions),
-            None => welcome(),
+        state.decoded.with(|decoded| {
+            let pieces = decoded.shown.as_ref().map(Pieces::of).unwrap_or_default();
+            pieces.show(&before.borrow());
+            before.replace(pieces);
+            browser::set_text("device-name", decoded.options.device.map_or("", |device| device.label));
+            match &decoded.shown {
+                Some(shown) => reading(shown, decoded, actions),
+                None => welcome(),
+            }
         })
     });
     // What depends on the chosen byte is drawn by itself: the byte keeps the focus.
@@ -30,9 +40,9 @@ pub fn Telegram(state: State, actions: Actions) -> impl IntoView {
             None => html! {},
         })
     });
-    let tables = drawn(move || {
+    let check = drawn(move || {
         state.decoded.with(|decoded| match &decoded.shown {
-            Some(shown) => tables(shown, decoded),
+            Some(shown) => check::check(shown),
             None => html! {},
         })
     });
@@ -55,8 +65,10 @@ pub fn Telegram(state: State, actions: Actions) -> impl IntoView {
     view! {
         <section id=DETAIL class="card detail" aria-label="Telegram">
             <div inner_html=reading></div>
-            <div class="byte" aria-live="polite" hidden=no_bytes inner_html=byte></div>
-            <div inner_html=tables></div>
+            <div id=STRIP class="strip" role="group" aria-label="Bytes. Arrow keys go from byte to byte."></div>
+            <div class="byte" role="region" aria-label="The chosen byte" tabindex="0" aria-live="polite" hidden=no_bytes inner_html=byte></div>
+            <div inner_html=tables().into_string()></div>
+            <div inner_html=check></div>
             <details id="views" class="layout" hidden=no_registers>
                 <summary>"Registers in every view"</summary>
                 <div inner_html=registers></div>
@@ -80,7 +92,8 @@ pub fn hear(state: State, kind: &str, event: &Event) {
         _ if inside.is_none() => {}
         "pointerover" => state.point(browser::span(event)),
         "click" => click(state, event),
-        "focusin" if browser::closest(event, STOP).is_some() => choose(state, event),
+        // A pointer chooses by its click: what is below must not move before that.
+        "focusin" if browser::closest(event, "[data-stop]:focus-visible").is_some() => choose(state, event),
         "keydown" => go(state, event),
         _ => {}
     }
@@ -217,17 +230,44 @@ fn reading(shown: &Shown, decoded: &Decoded, actions: Actions) -> Markup {
             p.count { (Message::bytes(shown.bytes().len())) }
             div.actions { (actions(&link(shown, decoded), &hex(shown.bytes()))) }
         }
-        (strip::strip(shown))
     }
 }
 
-/// What comes below the bytes.
-fn tables(shown: &Shown, decoded: &Decoded) -> Markup {
-    let device = decoded.options.device.map_or("", |device| device.label);
+/// Where the bytes and the rows of the tables come.
+const STRIP: &str = "strip";
+const DEVICE_ROWS: &str = "device-rows";
+const FIELD_ROWS: &str = "field-rows";
+
+fn tables() -> Markup {
     html! {
-        (fields::device(shown, device))
-        (fields::fields(shown))
-        (check::check(shown))
+        div id="device-table" hidden {
+            h3.device id="device-name" {}
+            (fields::table("Device", DEVICE_ROWS))
+        }
+        div id="field-table" hidden { (fields::table("Fields", FIELD_ROWS)) }
+    }
+}
+
+/// What is drawn piece by piece: a telegram of 256 bytes has hundreds of cells and rows, of which a
+/// keystroke changes a few.
+#[derive(Default)]
+struct Pieces {
+    strip: Vec<String>,
+    device: Vec<String>,
+    fields: Vec<String>,
+}
+
+impl Pieces {
+    fn of(shown: &Shown) -> Self {
+        Self { strip: strip::strip(shown), device: fields::device(shown), fields: fields::fields(shown) }
+    }
+
+    fn show(&self, before: &Self) {
+        browser::redraw(STRIP, &before.strip, &self.strip);
+        browser::redraw(DEVICE_ROWS, &before.device, &self.device);
+        browser::redraw(FIELD_ROWS, &before.fields, &self.fields);
+        browser::hide("device-table", self.device.is_empty());
+        browser::hide("field-table", self.fields.is_empty());
     }
 }
 
@@ -239,7 +279,7 @@ fn link(shown: &Shown, decoded: &Decoded) -> String {
         direction: Some(direction),
         ..decoded.options.clone()
     };
-    Link::to(hex(shown.bytes()), options).write()
+    fragment(&Link::to(hex(shown.bytes()), options))
 }
 
 fn problems(shown: &Shown) -> Markup {

@@ -8,27 +8,20 @@ use crate::app::state::{Shown, count};
 use crate::field::{Bits, Field, Message, Value, hex};
 use crate::tool::Block;
 
-/// All fields of the telegram.
-pub fn fields(shown: &Shown) -> Markup {
-    let bytes = shown.bytes();
-    let rows = shown.detail.fields.iter().enumerate();
-    table("Fields", html! { @for (index, field) in rows { (row(field, 0, bytes, index == 0, None)) } })
+/// The rows of all fields of the telegram.
+pub fn fields(shown: &Shown) -> Vec<String> {
+    let mut rows = Rows::default();
+    shown.detail.fields.iter().for_each(|field| rows.add(field, 0, shown.bytes(), None));
+    rows.0
 }
 
-/// What the device's manual says about registers and parameters.
-pub fn device(shown: &Shown, name: &str) -> Markup {
-    let blocks = &shown.detail.device.blocks;
-    let rows = blocks.iter().enumerate();
-    html! {
-        @if !blocks.is_empty() {
-            h3.device { (name) }
-            (table(name, html! {
-                @for (index, block) in rows {
-                    (row(&block.field, 0, shown.bytes(), index == 0, Some(about(block))))
-                }
-            }))
-        }
+/// The rows of what the device's manual says about registers and parameters.
+pub fn device(shown: &Shown) -> Vec<String> {
+    let mut rows = Rows::default();
+    for block in &shown.detail.device.blocks {
+        rows.add(&block.field, 0, shown.bytes(), Some(about(block)));
     }
+    rows.0
 }
 
 /// Where a block is, and what there is to say of it.
@@ -43,7 +36,8 @@ fn about(block: &Block) -> String {
     }
 }
 
-fn table(name: &str, rows: Markup) -> Markup {
+/// A table for rows that come later, in the element `id`.
+pub fn table(name: &str, id: &str) -> Markup {
     html! {
         // The roles say again what the elements are, since a phone shows the rows as blocks.
         table.fields role="table" aria-label=(name) {
@@ -54,21 +48,44 @@ fn table(name: &str, rows: Markup) -> Markup {
                     }
                 }
             }
-            tbody role="rowgroup" { (rows) }
+            tbody id=(id) role="rowgroup" {}
         }
     }
 }
 
-/// The row of a field and those of the fields within it.
-fn row(field: &Field, depth: usize, bytes: &[u8], first: bool, about: Option<String>) -> Markup {
+#[derive(Default)]
+struct Rows(Vec<String>);
+
+impl Rows {
+    /// Adds the row of a field and those of the fields within it.
+    fn add(&mut self, field: &Field, depth: usize, bytes: &[u8], about: Option<String>) {
+        let parts: Vec<_> = field.parts().filter(|(part, value)| !part.reserved || *value != 0).collect();
+        let first = self.0.is_empty();
+        self.0.push(row(field, depth, bytes, first, !parts.is_empty(), about).into_string());
+        for (part, value) in parts {
+            self.0.push(part_row(part, value, field, depth + 1).into_string());
+        }
+        for child in &field.children {
+            self.add(child, depth + 1, bytes, None);
+        }
+    }
+}
+
+fn row(
+    field: &Field,
+    depth: usize,
+    bytes: &[u8],
+    first: bool,
+    has_parts: bool,
+    about: Option<String>,
+) -> Markup {
     /// More bytes do not fit into the column; the strip shows them.
     const SHOWN: usize = 12;
     let span = field.span;
-    let parts: Vec<_> = field.parts().filter(|(part, value)| !part.reserved || *value != 0).collect();
     let within = !field.children.is_empty();
     // The meaning tells what is set: the bits are for those who want to know more.
-    let open = if parts.is_empty() { "true" } else { "false" };
-    let opens = within || !parts.is_empty();
+    let open = if has_parts { "false" } else { "true" };
+    let opens = within || has_parts;
     let meaning = match field.value {
         Value::Group if within && about.is_none() => count(field.children.len(), "value"),
         _ => field.meaning().map_or(String::new(), |meaning| meaning.to_string()),
@@ -95,8 +112,6 @@ fn row(field: &Field, depth: usize, bytes: &[u8], first: bool, about: Option<Str
                 }
             }
         }
-        @for (part, value) in parts { (part_row(part, value, field, depth + 1)) }
-        @for child in &field.children { (row(child, depth + 1, bytes, false, None)) }
     }
 }
 

@@ -76,14 +76,24 @@ pub fn refresh(entries: &Entries) {
             }
             _ => {}
         }
-        browser::set_text(&field(MISFIT), &said(entries, path));
+        browser::set_text(&field(MISFIT), &said(entries, entry));
     });
 }
 
-/// What is wrong with the entry at `path`.
-fn said(entries: &Entries, path: &str) -> String {
-    let misfit = entries.misfits.iter().find(|misfit| misfit.path == *path);
-    misfit.map_or(String::new(), |misfit| misfit.message.sentence())
+/// What is wrong with an entry: it does not fit, or should not be so.
+fn said(entries: &Entries, entry: &Entry) -> String {
+    let spec = entry.spec;
+    if let Some(misfit) = entries.misfits.iter().find(|misfit| misfit.path == entry.path) {
+        return misfit.message.sentence();
+    }
+    match (&entry.content, spec.limits) {
+        (Content::Number { width, text }, Some((from, to)))
+            if parse_value(text, *width, spec).is_ok_and(|raw| !spec.allows(raw)) =>
+        {
+            format!("Allowed: {}.", range(entry, from, to))
+        }
+        _ => String::new(),
+    }
 }
 
 /// The form.
@@ -174,7 +184,7 @@ fn range(entry: &Entry, from: u64, to: u64) -> String {
 
 /// Where what is wrong with the entry is said.
 fn misfit(all: &Entries, entry: &Entry) -> Markup {
-    html! { p.misfit id={ (entry.path) (MISFIT) } { (said(all, &entry.path)) } }
+    html! { p.misfit id={ (entry.path) (MISFIT) } { (said(all, entry)) } }
 }
 
 /// What there is to know of a group.

@@ -4,6 +4,7 @@ use leptos::prelude::*;
 use maud::html;
 use web_sys::{Element, Event};
 
+use super::shortcuts;
 use crate::app::{address, browser};
 
 /// The id of the list of themes. The boot script reads the same setting, so that the page comes up in
@@ -19,6 +20,7 @@ pub fn Header(
 }
 
 pub fn hear(kind: &str, event: &Event) {
+    shortcuts::hear(kind, event);
     if kind == "click" && browser::attribute(event, "data-link").is_some() {
         address::copy_link();
     }
@@ -57,6 +59,7 @@ fn content(here: &str) -> String {
         p.promise { "Reads and builds field-bus telegrams. Nothing leaves this page." }
         // How devices are set up goes with the links of the other views.
         @if here != DEVICES { button.quiet type="button" data-link="" { "Copy link" } }
+        (shortcuts::shortcuts())
         label.theme {
             span { "Theme" }
             select id=(THEME) aria-label="Theme" {

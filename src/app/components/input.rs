@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use web_sys::{Element, Event, HtmlTextAreaElement};
 
 use super::{drawn, marks, settings};
-use crate::app::browser::{self, INPUT};
+use crate::app::browser::{self, FILE, INPUT};
 use crate::app::state::{State, count};
 use crate::field::{Severity, Span};
 use crate::tool::{Remark, Report};
@@ -45,6 +45,29 @@ pub fn hear(state: State, kind: &str, event: &Event) {
     {
         state.decoded.with_untracked(|decoded| mark(&decoded.text, span));
     }
+    match kind {
+        "paste" if !browser::is_field(event) => {
+            if let Some(text) = browser::pasted(event) {
+                state.load(&text);
+            }
+        }
+        // Without this the browser would leave the page for the file.
+        "dragover" => event.prevent_default(),
+        "drop" => match browser::pasted(event) {
+            // Text that is moved within a field is the browser's to move.
+            Some(_) if browser::is_field(event) => {}
+            Some(text) => {
+                event.prevent_default();
+                state.load(&text);
+            }
+            None => {
+                event.prevent_default();
+                open(state, event);
+            }
+        },
+        "change" if browser::id(event) == FILE => open(state, event),
+        _ => {}
+    }
     let Some(area) = browser::element::<HtmlTextAreaElement>(INPUT) else { return };
     if browser::id(event) != INPUT {
         return;
@@ -63,6 +86,11 @@ pub fn hear(state: State, kind: &str, event: &Event) {
         "scroll" => scroll(&area),
         _ => {}
     }
+}
+
+/// Puts a file in place of the input.
+fn open(state: State, event: &Event) {
+    browser::read_file(event, move |_, text| state.load(&text));
 }
 
 const MARKS: &str = "marks";

@@ -4,6 +4,7 @@ use leptos::prelude::*;
 use maud::{Markup, html};
 
 use super::{Drawn, drawn};
+use crate::app::address::fragment;
 use crate::app::making::{Made, Making};
 use crate::app::state::State;
 use crate::field::{Direction, Message, hex};
@@ -39,9 +40,9 @@ fn reply((label, bytes): &(Message, Vec<u8>), made: &Made, state: State) -> Mark
         device: made.device,
         settings: state.settings(),
     };
-    let link = Link::to(hex(bytes), options).write();
+    let link = Link::to(hex(bytes), options);
     html! {
-        a.reply href={ "#" (link) } {
+        a.reply href={ "#" (fragment(&link)) } {
             span { (label.sentence()) }
             code { (hex(bytes)) }
         }

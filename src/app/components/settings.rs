@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use web_sys::Event;
 
 use super::examples;
-use crate::app::browser::{self, DEVICE, DIRECTION, PROTOCOL};
+use crate::app::browser::{self, DEVICE, DIRECTION, FILE, PROTOCOL};
 use crate::app::state::State;
 use crate::field::Direction;
 use crate::tool::{PROFILES, PROTOCOLS};
@@ -33,7 +33,10 @@ fn content() -> Markup {
             summary { "Examples" }
             div.examples { (examples::examples()) }
         }
+        input.unseen id=(FILE) type="file";
+        label.quiet for=(FILE) { "Open file" }
         button.quiet type="button" data-clear="" { "Clear" }
+        a.quiet href="sheet.html" { "Print, export" }
     }
 }
 

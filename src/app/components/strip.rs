@@ -9,18 +9,15 @@ use crate::field::{Field, Numbering, Role, Severity};
 /// More bytes than a telegram can have are not worth a cell each.
 const MOST: usize = 300;
 
-pub fn strip(shown: &Shown) -> Markup {
+/// A piece for each field, and one for what is left out.
+pub fn strip(shown: &Shown) -> Vec<String> {
     let bytes = shown.bytes();
-    html! {
-        div.strip role="group" aria-label="Bytes. Arrow keys go from byte to byte." {
-            @for leaf in shown.leaves().into_iter().filter(|leaf| leaf.span.from < MOST) {
-                (group(leaf, bytes))
-            }
-            @if bytes.len() > MOST {
-                p.rest { "and " (bytes.len() - MOST) " bytes more" }
-            }
-        }
+    let leaves = shown.leaves().into_iter().filter(|leaf| leaf.span.from < MOST);
+    let mut pieces: Vec<String> = leaves.map(|leaf| group(leaf, bytes).into_string()).collect();
+    if bytes.len() > MOST {
+        pieces.push(html! { p.rest { "and " (bytes.len() - MOST) " bytes more" } }.into_string());
     }
+    pieces
 }
 
 fn group(leaf: &Field, bytes: &[u8]) -> Markup {

@@ -1,0 +1,131 @@
+//! A report as plain text for a mail or a ticket: every telegram with its bytes and what they say.
+
+use super::{Report, Verdict};
+use crate::dialogue::Certainty;
+use crate::field::{Field, Severity, hex};
+
+/// The whole report.
+///
+/// ```
+/// use buslens::tool::{Options, annotated, decode};
+///
+/// let text = annotated::text(&decode("01 03 00 C8 00 03 84 35", Options::default()));
+/// assert!(text.contains("00 C8"), "{text}");
+/// ```
+pub fn text(report: &Report) -> String {
+    let mut text = summary(report);
+    for index in 0..report.telegrams.len() {
+        text.push('\n');
+        text += &telegram(report, index);
+    }
+    for line in &report.not_understood {
+        text += &format!("\nLine {}: no bytes found.\n", line.number);
+    }
+    text
+}
+
+/// "3 telegrams, 1 answered, 1 failed check".
+pub fn summary(report: &Report) -> String {
+    let summary = report.summary();
+    let counted = |n: usize, noun: &str| format!("{n} {noun}{}", if n == 1 { "" } else { "s" });
+    let mut parts = vec![counted(summary.telegrams, "telegram"), format!("{} answered", summary.pairs)];
+    if summary.unanswered > 0 {
+        parts.push(format!("{} unanswered", summary.unanswered));
+    }
+    parts.push(match (summary.check_failed, summary.checked) {
+        (0, 0) => "nothing to check".to_owned(),
+        (0, checked) if checked == summary.telegrams => "all checks right".to_owned(),
+        (0, checked) => format!("{checked} checked, all right"),
+        (failed, _) => format!("{} failed", counted(failed, "check")),
+    });
+    if summary.lines_not_understood > 0 {
+        parts.push(format!("{} without bytes", counted(summary.lines_not_understood, "line")));
+    }
+    format!("{}.\n", parts.join(", "))
+}
+
+/// Telegram `index`: what it says, its bytes, a line for each field, what is wrong.
+fn telegram(report: &Report, index: usize) -> String {
+    let (Some(telegram), Some(detail)) = (report.telegrams.get(index), report.detail(index)) else {
+        return String::new();
+    };
+    let direction = match telegram.guess.certainty {
+        Certainty::Open => "telegram",
+        Certainty::Certain | Certainty::Likely => telegram.guess.direction.key(),
+    };
+    let bytes = &telegram.line.bytes;
+    let mut text = format!(
+        "{}. {} {direction}{}: {}.\n   {}\n",
+        index + 1,
+        telegram.choice.protocol.label,
+        telegram.answers.map_or(String::new(), |request| format!(" to {}", request + 1)),
+        detail.meaning().sentence(),
+        hex(bytes),
+    );
+    let mut rows = Vec::new();
+    for block in &detail.device.blocks {
+        rows_of(&block.field, bytes, 0, &mut rows);
+    }
+    if !rows.is_empty() {
+        rows.push(Default::default());
+    }
+    detail.fields.iter().for_each(|field| rows_of(field, bytes, 0, &mut rows));
+    let width =
+        |column: usize| rows.iter().map(|row: &[String; 4]| row[column].chars().count()).max().unwrap_or(0);
+    let widths = [width(0).min(WIDEST), width(1), width(2)];
+    for [bytes, label, value, meaning] in &rows {
+        let [w0, w1, w2] = widths;
+        let line = format!("   {bytes:w0$}  {label:w1$}  {value:w2$}  {meaning}");
+        text += line.trim_end();
+        text.push('\n');
+    }
+    for problem in detail.problems() {
+        let mark = if problem.severity == Severity::Error { "Error" } else { "Warning" };
+        text += &format!("   {mark}: {}.\n", problem.message.sentence());
+    }
+    if telegram.verdict == Verdict::Wrong {
+        for explanation in report.explanations(index).into_iter().take(EXPLAINED) {
+            let hypothesis = explanation.hypothesis;
+            let (cause, odds) = (hypothesis.text(bytes).sentence(), hypothesis.odds());
+            text += &format!("   Perhaps: {cause} (fits by chance: {odds}).\n");
+        }
+    }
+    text
+}
+
+/// Longer runs of bytes have no column of their own.
+const WIDEST: usize = 24;
+/// So many causes of a failed check are told.
+const EXPLAINED: usize = 2;
+
+/// Bytes, label, value and meaning of a field and of those within it.
+fn rows_of(field: &Field, bytes: &[u8], depth: usize, rows: &mut Vec<[String; 4]>) {
+    let meaning = field.meaning().map_or(String::new(), |meaning| meaning.to_string());
+    let label = format!("{}{}", "  ".repeat(depth), field.label().sentence());
+    rows.push([hex(field.span.of(bytes)), label, field.value_text(), meaning]);
+    field.children.iter().for_each(|child| rows_of(child, bytes, depth + 1, rows));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tool::{Options, decode};
+
+    #[test]
+    fn everything_found_is_in_the_text() {
+        let text = text(&decode(
+            "01 03 00 C8 00 03 84 35\n01 03 06 00 08 42 A4 F1 DE B0 F8\nhello",
+            Options::default(),
+        ));
+        assert!(
+            text.starts_with("2 telegrams, 1 answered, 1 check failed, 1 line without bytes.\n"),
+            "{text}"
+        );
+        assert!(text.contains("\n1. Modbus RTU request: Ask unit 1"), "{text}");
+        assert!(text.contains("\n2. Modbus RTU response to 1: "), "{text}");
+        assert!(text.contains("\n   01                 Unit address"), "{text}");
+        assert!(text.contains("\n   Error: CRC does not match"), "{text}");
+        assert!(text.contains("\nLine 3: no bytes found."), "{text}");
+        assert!(text.lines().all(|line| !line.ends_with(' ')), "{text}");
+    }
+}
