@@ -256,7 +256,8 @@ async fn a_byte_is_explained() -> Result {
     let page = Page::open(DESKTOP, false).await?;
     page.one("#device option[value=memograph-rsg45]").await?.click().await?;
     page.paste("01 03 00 C8 00 03 84 35\n01 03 06 00 80 42 F6 E9 79 5A 93").await?;
-    assert!(page.text(".byte").await?.contains("Choose a byte"));
+    assert!(page.text(".bar .count").await?.contains("Choose one"));
+    assert!(!page.one(".byte").await?.is_displayed().await?);
     page.click("[data-at='6']").await?;
     let said = page.text(".byte").await?;
     for part in [
@@ -272,8 +273,11 @@ async fn a_byte_is_explained() -> Result {
     page.press(Key::Right + "").await?;
     page.until(".byte", "Byte 7: E9h").await?;
     assert_eq!(page.value("return document.activeElement.dataset.at").await?, json!("7"));
+    page.click("[data-close]").await?;
+    assert!(!page.one(".byte").await?.is_displayed().await?);
     page.click("#views summary").await?;
     page.click("[data-at='5']").await?;
+    page.until("#views .guess", "123.456").await?;
     assert_eq!(page.texts("#views .guess").await?, ["a float number, ABCD", "123.456"]);
     page.close().await
 }

@@ -14,8 +14,10 @@ use crate::tool::{Detail, Options, Report, Settings, Summary, Telegram, decode};
 pub struct State {
     /// What was typed, and all that follows from it.
     pub decoded: RwSignal<Decoded>,
-    /// What is pointed at.
-    pub light: RwSignal<Light>,
+    /// The bytes under the pointer.
+    pointed: RwSignal<Option<Span>>,
+    /// The bytes chosen by tap, click or keyboard.
+    pub chosen: RwSignal<Option<Chosen>>,
     /// How far the list of telegrams is scrolled, in pixels.
     pub scrolled: RwSignal<usize>,
 }
@@ -40,30 +42,11 @@ pub struct Shown {
     pub detail: Detail,
 }
 
-/// Bytes that are to be lit up.
-#[derive(Clone, Copy, Default, PartialEq)]
-pub struct Light {
-    /// Those under the pointer.
-    pointed: Option<Span>,
-    /// Those chosen by tap, click or keyboard.
-    chosen: Option<Span>,
-    /// Which byte of them.
-    at: Option<usize>,
-}
-
-impl Light {
-    pub fn span(self) -> Option<Span> {
-        self.pointed.or(self.chosen)
-    }
-
-    pub fn chosen(self) -> Option<Span> {
-        self.chosen
-    }
-
-    /// The byte that is to be explained.
-    pub fn at(self) -> Option<usize> {
-        self.at.or(self.chosen.map(|span| span.from))
-    }
+/// Chosen bytes, and which one of them is explained.
+#[derive(Clone, Copy, PartialEq)]
+pub struct Chosen {
+    pub span: Span,
+    pub at: usize,
 }
 
 impl Shown {
@@ -101,7 +84,12 @@ impl Decoded {
 
 impl State {
     pub fn new() -> Self {
-        Self { decoded: RwSignal::default(), light: RwSignal::default(), scrolled: RwSignal::default() }
+        Self {
+            decoded: RwSignal::default(),
+            pointed: RwSignal::default(),
+            chosen: RwSignal::default(),
+            scrolled: RwSignal::default(),
+        }
     }
 
     /// The input was edited; the telegram at the cursor is shown.
@@ -169,26 +157,31 @@ impl State {
         }
     }
 
+    /// The bytes to light up: those under the pointer, or else those chosen.
+    pub fn lit(&self) -> Option<Span> {
+        self.pointed.get().or(self.chosen.get().map(|chosen| chosen.span))
+    }
+
     /// The pointer is over these bytes, or over none.
     pub fn point(&self, span: Option<Span>) {
-        self.shine(Light { pointed: span, ..self.light.get_untracked() });
+        if span != self.pointed.get_untracked() {
+            self.pointed.set(span);
+            browser::light(untrack(|| self.lit()));
+        }
     }
 
-    /// These bytes are chosen, and one of them, or none.
-    pub fn choose(&self, span: Option<Span>, at: Option<usize>) {
-        self.shine(Light { chosen: span, at, ..self.light.get_untracked() });
-    }
-
-    fn shine(&self, light: Light) {
-        if light != self.light.get_untracked() {
-            self.light.set(light);
-            browser::light(light.span());
+    /// These bytes are chosen, or none.
+    pub fn choose(&self, chosen: Option<Chosen>) {
+        if chosen != self.chosen.get_untracked() {
+            self.chosen.set(chosen);
+            browser::light(untrack(|| self.lit()));
         }
     }
 
     /// Changes what is shown. What was chosen among the bytes before means nothing any more.
     fn change(&self, change: impl FnOnce(&mut Decoded)) {
-        self.shine(Light::default());
+        self.point(None);
+        self.choose(None);
         let before = self.decoded.with_untracked(Decoded::index);
         self.decoded.update(change);
         let index = self.decoded.with_untracked(Decoded::index);

@@ -5,13 +5,13 @@ use maud::{Markup, html};
 use crate::app::state::Shown;
 use crate::tool::byte::{itself, shares};
 
-pub fn byte(shown: &Shown, at: Option<usize>) -> Markup {
-    let chosen = at.and_then(|at| Some((at, *shown.bytes().get(at)?)));
-    let Some((at, byte)) = chosen else {
-        return html! { p { "Choose a byte to see how its value comes about." } };
-    };
+pub fn byte(shown: &Shown, at: usize) -> Markup {
+    let Some(byte) = shown.bytes().get(at).copied() else { return html! {} };
     html! {
-        p { strong { "Byte " (at) } ": " code { (itself(byte)) } }
+        div.bar {
+            p { strong { "Byte " (at) } ": " code { (itself(byte)) } }
+            button.quiet type="button" data-close="" aria-label="Close" { "✕" }
+        }
         @for share in shares(&shown.detail, shown.bytes(), at) {
             p {
                 strong { (share.place.sentence()) "." }

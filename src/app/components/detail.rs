@@ -9,7 +9,7 @@ use web_sys::{Element, Event};
 use super::{Drawn, byte, check, drawn, examples, fields, layout, strip, views};
 use crate::app::address::fragment;
 use crate::app::browser::{self, DETAIL};
-use crate::app::state::{Decoded, Shown, State};
+use crate::app::state::{Chosen, Decoded, Shown, State};
 use crate::field::{Message, Severity, hex};
 use crate::tool::link::Link;
 use crate::tool::{Certainty, Options, PROTOCOLS};
@@ -34,10 +34,10 @@ pub fn Telegram(state: State, actions: Actions) -> impl IntoView {
     });
     // What depends on the chosen byte is drawn by itself: the byte keeps the focus.
     let byte = drawn(move || {
-        let at = state.light.get().at();
-        state.decoded.with(|decoded| match &decoded.shown {
-            Some(shown) => byte::byte(shown, at),
-            None => html! {},
+        let chosen = state.chosen.get();
+        state.decoded.with(|decoded| match (&decoded.shown, chosen) {
+            (Some(shown), Some(chosen)) => byte::byte(shown, chosen.at),
+            _ => html! {},
         })
     });
     let check = drawn(move || {
@@ -53,21 +53,21 @@ pub fn Telegram(state: State, actions: Actions) -> impl IntoView {
         })
     });
     let registers = drawn(move || {
-        let chosen = state.light.get().chosen();
+        let chosen = state.chosen.get().map(|chosen| chosen.span);
         state.decoded.with(|decoded| match &decoded.shown {
             Some(shown) => views::chosen(shown, chosen),
             None => html! {},
         })
     });
     let no_registers: Drawn<bool> = Box::new(move || state.decoded.with(|decoded| !has_registers(decoded)));
-    let no_bytes: Drawn<bool> = Box::new(move || state.decoded.with(|decoded| decoded.shown.is_none()));
+    let unchosen: Drawn<bool> = Box::new(move || state.chosen.get().is_none());
     let nothing: Drawn<bool> = Box::new(move || state.decoded.with(|decoded| decoded.shown.is_none()));
     view! {
         <section id=DETAIL class="card detail" aria-label="Telegram">
             <div inner_html=reading></div>
             <div id=STRIP class="strip" role="group" aria-label="Bytes. Arrow keys go from byte to byte."></div>
-            <div class="byte" role="region" aria-label="The chosen byte" tabindex="0" aria-live="polite" hidden=no_bytes inner_html=byte></div>
             <div inner_html=tables().into_string()></div>
+            <div class="byte" role="region" aria-label="The chosen byte" aria-live="polite" hidden=unchosen inner_html=byte></div>
             <div inner_html=check></div>
             <details id="views" class="layout" hidden=no_registers>
                 <summary>"Registers in every view"</summary>
@@ -107,6 +107,8 @@ fn click(state: State, event: &Event) {
         state.select(index);
     } else if let Some(key) = browser::attribute(event, "data-protocol") {
         state.read_as(|options| options.protocol = PROTOCOLS.iter().copied().find(|it| it.key == key));
+    } else if browser::attribute(event, "data-close").is_some() {
+        state.choose(None);
     } else if let Some(text) = browser::attribute(event, "data-copy") {
         browser::copy(&text);
     } else if browser::span(event).is_some() {
@@ -119,7 +121,7 @@ fn click(state: State, event: &Event) {
 
 fn choose(state: State, event: &Event) {
     let at = browser::attribute(event, "data-at").and_then(|at| at.parse().ok());
-    state.choose(browser::span(event), at);
+    state.choose(browser::span(event).map(|span| Chosen { span, at: at.unwrap_or(span.from) }));
 }
 
 /// Arrow keys go from cell to cell and from row to row; left and right close and open a group.
@@ -145,7 +147,7 @@ fn go(state: State, event: &Event) {
         "Home" => 0,
         "End" => last,
         "Escape" => {
-            state.choose(None, None);
+            state.choose(None);
             return;
         }
         _ => return,
@@ -227,7 +229,7 @@ fn reading(shown: &Shown, decoded: &Decoded, actions: Actions) -> Markup {
         }
         (problems(shown))
         div.bar {
-            p.count { (Message::bytes(shown.bytes().len())) }
+            p.count { (Message::bytes(shown.bytes().len())) ". Choose one to see how its value comes about." }
             div.actions { (actions(&link(shown, decoded), &hex(shown.bytes()))) }
         }
     }

@@ -230,7 +230,9 @@ fn switch(id: &str, part: &Bits, value: u64) -> Markup {
         @if !part.names.is_empty() {
             select id=(id) {
                 @for name in part.names {
-                    option value=(name.value) selected[value == name.value] { (Message::term(name.label).sentence()) }
+                    option value=(name.value) selected[value == name.value] {
+                        @if name.label.is_empty() { (name.value) } @else { (Message::term(name.label).sentence()) }
+                    }
                 }
                 @if part.name(value).is_none() { option value=(value) selected { (value) } }
             }

@@ -13,7 +13,7 @@ use crate::tool::{Remark, Report};
 #[component]
 pub fn Input(state: State) -> impl IntoView {
     let marks = drawn(move || {
-        let lit = state.light.get().span();
+        let lit = state.lit();
         state.decoded.with(|decoded| marks::marks(decoded, lit))
     });
     let reading = drawn(move || state.decoded.with(|decoded| reading(&decoded.text, &decoded.report)));
