@@ -144,6 +144,36 @@ async fn bytes_are_copied_in_every_format() -> Result {
     let json: serde_json::Value = serde_json::from_str(&page.clipboard().await?).expect("JSON");
     assert_eq!(json["start"], json!(200));
     assert_eq!(json["fields"][0]["key"], json!("unit"));
+    // What stands on an ASCII line are characters.
+    page.one("#protocol option[value=modbus-ascii]").await?.click().await?;
+    for (format, text) in [
+        ("characters", ":010300C8000331\r\n"),
+        (
+            "python",
+            "telegram = b\"\\x3A\\x30\\x31\\x30\\x33\\x30\\x30\\x43\\x38\\x30\\x30\\x30\\x33\\x33\\x31\\x0D\\x0A\"",
+        ),
+    ] {
+        page.click(".bar .menu summary").await?;
+        page.click(&format!("[data-format={format}]")).await?;
+        assert_eq!(page.clipboard().await?, text);
+    }
+    page.close().await
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_parameter_is_changed_in_two_sets() -> Result {
+    let page = Page::open_at("build.html", DESKTOP, true).await?;
+    page.one("#device option[value=keb-f5-profibus]").await?.click().await?;
+    page.one("#protocol option[value=profibus-parameter-channel]").await?.click().await?;
+    page.one("#find").await?.send_keys("write set speed").await?;
+    page.click("[data-offer='0']").await?;
+    page.one("#protocol option[value=profibus-parameter-channel]").await?.click().await?;
+    for bit in ["subindex#0", "subindex#2"] {
+        page.click(&format!("[id='{bit}']")).await?;
+    }
+    page.enter("content.set_speed", "1500").await?;
+    assert_eq!(page.shown().await?, "52 05 20 34 05 DC 00 00");
+    assert!(page.text(".detail h2").await?.contains("Set speed (Sy.52) = 1500"));
     page.close().await
 }
 

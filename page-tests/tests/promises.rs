@@ -230,7 +230,7 @@ async fn bytes_are_copied() -> Result {
     page.paste("010306000842A4F1DEB0F8").await?;
     page.click(".bar button").await?;
     assert_eq!(page.clipboard().await?, "01 03 06 00 08 42 A4 F1 DE B0 F8");
-    page.click("div.check .quiet").await?;
+    page.click("div.check button.quiet").await?;
     assert_eq!(page.clipboard().await?, "01 03 06 00 08 42 A4 F1 DE 50 E7");
     page.close().await
 }

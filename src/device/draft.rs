@@ -1,7 +1,10 @@
 //! What to ask of a device, in its manual's words, and the registers that this is.
 
+use std::ops::RangeInclusive;
+
+use super::keb_f5::sets;
 use super::{Access, Area, Content, Numbers, Parameter, Part, Profile};
-use crate::field::{Argument, Message, Role, Spec};
+use crate::field::{Argument, Bits, Message, Role, Spec};
 use crate::message;
 use crate::walk::{self, Deviations, Telegram, Walk, Walker};
 
@@ -151,6 +154,16 @@ impl Draft {
         self.task.by_index()
     }
 
+    /// Inverter parameters asked for by index are meant in sets.
+    fn has_sets(&self) -> bool {
+        let address = match self.task.target {
+            Target::Area(area) => area.from,
+            Target::Parameter(Parameter { subindex: Some(_), .. }) => return false,
+            Target::Parameter(parameter) => parameter.address,
+        };
+        self.by_index() && INVERTER.contains(&address)
+    }
+
     /// The registers of what was filled in, or what is wrong with the number.
     pub fn asked(&mut self) -> Result<Asked, Message> {
         let width = self.task.width();
@@ -190,12 +203,11 @@ impl Draft {
 
 impl Telegram for Draft {
     fn walk(&mut self, w: &mut dyn Walker) -> Walk {
-        match self.task.target {
-            Target::Area(Area { first: Some(_), .. }) => w.u64(&NUMBER, &mut self.number)?,
-            Target::Parameter(parameter) if self.task.by_index() && parameter.subindex.is_none() => {
-                w.u8(&SETS, &mut self.subindex)?;
-            }
-            _ => {}
+        if let Target::Area(Area { first: Some(_), .. }) = self.task.target {
+            w.u64(&NUMBER, &mut self.number)?;
+        }
+        if self.has_sets() {
+            w.u8(&SETS, &mut self.subindex)?;
         }
         w.within(&CONTENT, &mut |w| self.content.walk(w))
     }
@@ -204,8 +216,14 @@ impl Telegram for Draft {
 static NUMBER: Spec =
     Spec::new("number", "Number").role(Role::Address).note("Which one, as the manual counts them.");
 
-static SETS: Spec = Spec::new("subindex", "Subindex")
+/// The indices of inverter parameters.
+const INVERTER: RangeInclusive<u16> = 0x2000..=0x5EFF;
+
+static SETS: Spec = Spec::new("subindex", "Sets")
     .role(Role::Address)
+    .bits(&SET_BITS)
     .note("The sets that are meant, one bit for each; 0 for the set that Fr.09 chooses.");
+
+static SET_BITS: [Bits; 8] = sets(0);
 
 static CONTENT: Spec = Spec::new("content", "Content").note("What is written.");

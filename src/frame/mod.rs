@@ -52,6 +52,8 @@ pub struct Protocol {
     pub waiting: usize,
     /// An empty frame to read the bytes into.
     pub expect: fn(&[u8], Direction, &Settings) -> Box<dyn Frame>,
+    /// The characters that stand on the line for the bytes; `None` where the bytes themselves do.
+    pub characters: Option<fn(&[u8]) -> String>,
     /// A frame around what is to be sent to this unit; `None` where the protocol carries other things.
     pub carry: fn(u8, Cargo) -> Option<Box<dyn Frame>>,
 }

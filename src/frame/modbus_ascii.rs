@@ -22,6 +22,7 @@ pub static PROTOCOL: Protocol = Protocol {
     exchange: serial::exchange,
     waiting: 1,
     expect: |bytes, direction, settings| Box::new(ASCII.expect(bytes, direction, settings.dialect)),
+    characters: Some(characters),
     carry: |unit, cargo| match cargo {
         Cargo::Modbus(pdu) => Some(Box::new(Serial { mode: &ASCII, unit, pdu })),
         Cargo::Profibus(..) => None,

@@ -29,6 +29,7 @@ pub static PROTOCOL: Protocol = Protocol {
         let function = bytes.first().copied().unwrap_or_default();
         Box::new(Bare { pdu: Pdu::expect(function, direction, settings.dialect) })
     },
+    characters: None,
     carry: |_, cargo| match cargo {
         Cargo::Modbus(pdu) => Some(Box::new(Bare { pdu })),
         Cargo::Profibus(..) => None,

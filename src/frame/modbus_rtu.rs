@@ -29,6 +29,7 @@ pub static PROTOCOL: Protocol = Protocol {
     exchange: serial::exchange,
     waiting: 1,
     expect: |bytes, direction, settings| Box::new(RTU.expect(bytes, direction, settings.dialect)),
+    characters: None,
     carry: |unit, cargo| match cargo {
         Cargo::Modbus(pdu) => Some(Box::new(Serial { mode: &RTU, unit, pdu })),
         Cargo::Profibus(..) => None,

@@ -31,6 +31,7 @@ pub static PROTOCOL: Protocol = Protocol {
     },
     waiting: 64,
     expect: |bytes, direction, settings| Box::new(Tcp::expect(bytes, direction, settings.dialect)),
+    characters: None,
     carry: |unit, cargo| match cargo {
         Cargo::Modbus(pdu) => Some(Box::new(Tcp { transaction: 1, protocol: 0, unit, pdu })),
         Cargo::Profibus(..) => None,

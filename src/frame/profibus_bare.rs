@@ -111,6 +111,7 @@ const WITHOUT_FRAME: Protocol = Protocol {
     exchange: |_| None,
     waiting: 1,
     expect: |_, direction, settings| Bare::expect(Kind::of(None, direction), settings),
+    characters: None,
     carry: |_, cargo| match cargo {
         Cargo::Modbus(_) => None,
         Cargo::Profibus(kind, body) => Some(Box::new(Bare { kind, body })),

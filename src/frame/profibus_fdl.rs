@@ -33,6 +33,7 @@ pub static PROTOCOL: Protocol = Protocol {
     exchange,
     waiting: 1,
     expect: |bytes, direction, settings| Box::new(Fdl::expect(bytes, direction, &settings.profibus)),
+    characters: None,
     carry: |station, cargo| match cargo {
         Cargo::Modbus(_) => None,
         Cargo::Profibus(kind, body) => Some(Box::new(Fdl::to(station, kind, body))),

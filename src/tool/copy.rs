@@ -41,7 +41,19 @@ fn each(bytes: &[u8], before: &str, between: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tool::{Options, decode};
+    use crate::tool::{Options, PROTOCOLS, decode};
+
+    #[test]
+    fn characters_of_a_line_are_read_again() {
+        let ascii = PROTOCOLS.iter().find(|protocol| protocol.key == "modbus-ascii").unwrap();
+        let bytes = [0x02, 0x03, 0x00, 0xC8, 0x00, 0x05, 0x2E];
+        let characters = ascii.characters.unwrap()(&bytes);
+        for format in FORMATS {
+            let report = decode(&(format.write)(characters.as_bytes()), Options::default());
+            assert_eq!(report.telegrams[0].line.bytes, bytes, "{}", format.key);
+            assert_eq!(report.telegrams[0].choice.protocol.key, "modbus-ascii");
+        }
+    }
 
     #[test]
     fn every_format_is_read_again() {

@@ -9,7 +9,8 @@ use crate::field::{Check, Span, hex, hex_value};
 use crate::tool::Verdict;
 use crate::tool::link::Link;
 
-pub fn check(shown: &Shown) -> Markup {
+/// `link` leads to the telegram.
+pub fn check(shown: &Shown, link: &str) -> Markup {
     let Some(check) = shown.detail.check() else { return unchecked(shown) };
     let bytes = shown.bytes();
     let computed = check.computed_bytes();
@@ -38,8 +39,11 @@ pub fn check(shown: &Shown) -> Markup {
                     "Some byte is not what its sender checked, or is missing or too many, or the check itself is \
                      wrong. The check alone cannot tell which: what is said above may be wrong, too."
                 }
-                button.quiet type="button" data-copy=(hex(&corrected(bytes, &check))) {
-                    "Copy with the computed check"
+                div.actions {
+                    a.quiet href={ "sheet.html#" (link) } { "What may have happened" }
+                    button.quiet type="button" data-copy=(hex(&corrected(bytes, &check))) {
+                        "Copy with the computed check"
+                    }
                 }
             }
         }

@@ -6,12 +6,12 @@ use web_sys::Event;
 
 use super::menu;
 use crate::app::browser;
-use crate::app::state::State;
+use crate::app::state::{Decoded, Shown, State};
 use crate::tool::copy::FORMATS;
 use crate::tool::json;
 
-/// The menu of formats.
-pub fn copies() -> Markup {
+/// The menu of formats, with one more where the line carries characters.
+pub fn copies(shown: &Shown) -> Markup {
     html! {
         details.menu {
             summary { "Copy as" }
@@ -20,6 +20,9 @@ pub fn copies() -> Markup {
                     @for format in FORMATS {
                         li { button type="button" data-format=(format.key) { (format.label) } }
                     }
+                    @if shown.telegram.choice.protocol.characters.is_some() {
+                        li { button type="button" data-format=(CHARACTERS) { "Characters" } }
+                    }
                     li { button type="button" data-format=(JSON) { "JSON, with its fields" } }
                 }
             }
@@ -27,19 +30,28 @@ pub fn copies() -> Markup {
     }
 }
 
+const CHARACTERS: &str = "characters";
 const JSON: &str = "json";
+
+/// The telegram in a format, as it is on the line.
+fn written(decoded: &Decoded, key: &str) -> Option<String> {
+    let shown = decoded.shown.as_ref()?;
+    let characters = shown.telegram.choice.protocol.characters.map(|characters| characters(shown.bytes()));
+    match FORMATS.iter().find(|format| format.key == key) {
+        Some(format) => match characters {
+            Some(characters) => Some((format.write)(characters.as_bytes())),
+            None => Some((format.write)(shown.bytes())),
+        },
+        None if key == CHARACTERS => characters,
+        None => json::line(&decoded.report, shown.index, true).ok(),
+    }
+}
 
 pub fn hear(state: State, kind: &str, event: &Event) {
     if kind == "click"
         && let Some(key) = browser::attribute(event, "data-format")
     {
-        let text = state.decoded.with_untracked(|decoded| {
-            let shown = decoded.shown.as_ref()?;
-            match FORMATS.iter().find(|format| format.key == key) {
-                Some(format) => Some((format.write)(shown.bytes())),
-                None => json::line(&decoded.report, shown.index, true).ok(),
-            }
-        });
+        let text = state.decoded.with_untracked(|decoded| written(decoded, &key));
         browser::copy(&text.unwrap_or_default());
         browser::say("Copied.");
         menu::close(event);

@@ -14,8 +14,8 @@ use crate::field::{Message, Severity, hex};
 use crate::tool::link::Link;
 use crate::tool::{Certainty, Options, PROTOCOLS};
 
-/// Buttons for what can be done with a telegram, of which a link and the hex are given.
-pub type Actions = fn(&str, &str) -> Markup;
+/// Buttons for what can be done with a telegram, to which a link is given.
+pub type Actions = fn(&Shown, &str) -> Markup;
 
 #[component]
 pub fn Telegram(state: State, actions: Actions) -> impl IntoView {
@@ -42,7 +42,7 @@ pub fn Telegram(state: State, actions: Actions) -> impl IntoView {
     });
     let check = drawn(move || {
         state.decoded.with(|decoded| match &decoded.shown {
-            Some(shown) => check::check(shown),
+            Some(shown) => check::check(shown, &link(shown, decoded)),
             None => html! {},
         })
     });
@@ -230,7 +230,7 @@ fn reading(shown: &Shown, decoded: &Decoded, actions: Actions) -> Markup {
         (problems(shown))
         div.bar {
             p.count { (Message::bytes(shown.bytes().len())) ". Choose one to see how its value comes about." }
-            div.actions { (actions(&link(shown, decoded), &hex(shown.bytes()))) }
+            div.actions { (actions(shown, &link(shown, decoded))) }
         }
     }
 }

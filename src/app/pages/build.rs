@@ -6,7 +6,7 @@ use web_sys::Event;
 
 use crate::app::components::{copies, detail, finder, header, made, menu, replies};
 use crate::app::making::Making;
-use crate::app::state::State;
+use crate::app::state::{Shown, State};
 
 /// An event of the page, for the part that it concerns.
 pub fn hear(making: Making, state: State, event: &Event) {
@@ -20,10 +20,10 @@ pub fn hear(making: Making, state: State, event: &Event) {
 }
 
 /// What can be done with a telegram here.
-fn actions(link: &str, _hex: &str) -> Markup {
+fn actions(shown: &Shown, link: &str) -> Markup {
     html! {
         a.quiet href={ ".#" (link) } { "Open in Decode" }
-        (copies::copies())
+        (copies::copies(shown))
     }
 }
 

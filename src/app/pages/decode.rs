@@ -5,7 +5,8 @@ use maud::{Markup, html};
 use web_sys::Event;
 
 use crate::app::components::{detail, examples, header, input, list, menu, settings};
-use crate::app::state::State;
+use crate::app::state::{Shown, State};
+use crate::field::hex;
 
 /// An event of the page, for the part that it concerns.
 pub fn hear(state: State, event: &Event) {
@@ -24,10 +25,10 @@ pub fn hear(state: State, event: &Event) {
 }
 
 /// What can be done with a telegram here.
-fn actions(link: &str, hex: &str) -> Markup {
+fn actions(shown: &Shown, link: &str) -> Markup {
     html! {
         a.quiet href={ "build.html#" (link) } { "Edit in Build" }
-        button.quiet type="button" data-copy=(hex) { "Copy as hex" }
+        button.quiet type="button" data-copy=(hex(shown.bytes())) { "Copy as hex" }
     }
 }
 
