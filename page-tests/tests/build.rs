@@ -205,3 +205,25 @@ async fn a_telegram_is_built_by_keyboard_alone() -> Result {
     assert_eq!(page.shown().await?, "05 06 0C 90 04 01 48 33");
     page.close().await
 }
+
+/// A choice decides which fields follow: the command of a batch, the state of a coil, the function code.
+#[tokio::test(flavor = "multi_thread")]
+async fn choices_make_another_form() -> Result {
+    let page = Page::open_at("build.html", DESKTOP, false).await?;
+    page.one("#find").await?.send_keys("write single coil request").await?;
+    page.click("[data-offer='0']").await?;
+    page.one(".form select option[value='65280']").await?.click().await?;
+    assert_eq!(page.shown().await?, "01 05 00 00 FF 00 8C 3A");
+    page.one("#device option[value=memograph-rsg45]").await?.click().await?;
+    page.driver.execute("const find = document.getElementById('find'); find.value = 'start batch'; find.dispatchEvent(new Event('input', { bubbles: true }))", vec![]).await?;
+    page.until("[data-offer='0']", "Write Batch").await?;
+    page.click("[data-offer='0']").await?;
+    page.settle().await?;
+    let options = page.texts(".form select option").await?;
+    let start = options.iter().position(|option| option == "Start batch").expect("a command");
+    page.click(&format!(".form select option:nth-child({})", start + 1)).await?;
+    page.settle().await?;
+    let said = page.text(".detail h2").await?;
+    assert!(said.contains("start batch"), "{said}");
+    page.close().await
+}

@@ -1,9 +1,10 @@
 //! What can be built: every telegram of the registries, and what a device can be asked for.
 
 use crate::device::{Profile, Target, Task};
-use crate::field::{Direction, Message, Spec};
-use crate::modbus::{self, Kind};
+use crate::field::{Direction, Message, Name, Spec};
+use crate::modbus::{self, Kind, STANDARD};
 use crate::profibus;
+use crate::walk::{Deviations, form};
 
 /// Something that can be built.
 #[derive(Clone, Copy, Debug)]
@@ -41,14 +42,32 @@ impl Offer {
         }
     }
 
-    /// Whether this is what somebody types a part of: each word is in the label, or is the function
-    /// code, the access point, or an address that it is about (decimal, `0x5F00` or `5F00h`).
+    /// Whether this is what somebody types a part of: each word is in the label or in the name of a
+    /// command that it can give, or is the function code, the access point, or an address that it is about
+    /// (decimal, `0x5F00` or `5F00h`).
     pub fn fits(&self, typed: &str) -> bool {
         let label = self.label().to_string().to_ascii_lowercase();
-        typed
-            .to_ascii_lowercase()
-            .split_whitespace()
-            .all(|word| label.contains(word) || number(word).is_some_and(|number| self.has(number)))
+        typed.to_ascii_lowercase().split_whitespace().all(|word| {
+            label.contains(word)
+                || number(word).is_some_and(|number| self.has(number))
+                || self.commands().iter().any(|name| name.label.to_ascii_lowercase().contains(word))
+        })
+    }
+
+    /// What there is to choose from in it.
+    fn commands(&self) -> &'static [Name] {
+        let form = match self {
+            Self::Task(task) => form::form(&mut task.draft(), &Deviations::default()),
+            Self::Telegram(kind) => form::form(&mut kind.pdu(&STANDARD), &Deviations::default()),
+            Self::Service(_) => return &[],
+        };
+        let mut names: &'static [Name] = &[];
+        form.visit(&mut |entry| {
+            if let form::Content::Choice { .. } = entry.content {
+                names = entry.spec.names;
+            }
+        });
+        names
     }
 
     /// Whether `number` is its function code, its access point, or one of its addresses.
@@ -98,6 +117,7 @@ mod tests {
         );
         assert_eq!(found("keb-f5-modbus", "0x5f00 read"), found("keb-f5-modbus", "5F00h read"));
         assert!(found("keb-f5-modbus", "5f00h read").contains(&"Read MDB_ProtCfg (FB.00)".to_owned()));
+        assert_eq!(found("memograph-rsg45", "start batch"), ["Write Batch"]);
         assert!(found("", "no such thing").is_empty());
     }
 

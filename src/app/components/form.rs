@@ -14,7 +14,10 @@ pub fn hear(kind: &str, event: &Event, make: impl FnOnce(&str, Change)) {
     let number = |name: &str| browser::attribute(event, name).and_then(|number| number.parse().ok());
     let typed = browser::value(event);
     match kind {
-        "input" => match number("data-part") {
+        // Not every way to choose in a list tells of an input.
+        "input" | "change" => match number("data-part") {
+            // The first line of a list of names chooses none.
+            None if typed.is_empty() && browser::id(event).ends_with(BY_NAME) => {}
             None => make(&path, Change::Enter(&typed)),
             Some(part) => {
                 let value = browser::checked(event).map_or_else(|| typed.parse().ok(), |on| Some(on.into()));
@@ -23,9 +26,6 @@ pub fn hear(kind: &str, event: &Event, make: impl FnOnce(&str, Change)) {
                 }
             }
         },
-        "change" if browser::id(event).ends_with(BY_NAME) && !typed.is_empty() => {
-            make(&path, Change::Enter(&typed));
-        }
         "click" if browser::attribute(event, "data-add").is_some() => make(&path, Change::Add),
         "click" => {
             if let Some(index) = number("data-remove") {
@@ -126,8 +126,29 @@ fn entry(all: &Entries, entry: &Entry) -> Markup {
                 button.quiet type="button" data-add="" { "Add one" }
             }
         },
+        Content::Choice { raw, chosen } if !spec.names.is_empty() => html! {
+            div.entry class=(class) data-path=(entry.path) {
+                (label_of(entry, &label))
+                div.control {
+                    select id=(entry.path) {
+                        @if spec.name(*raw).is_none() { option value=(raw) selected { (raw) ": " (chosen.label) } }
+                        @for name in spec.names {
+                            option value=(name.value) selected[*raw == name.value] { (Message::term(name.label).sentence()) }
+                        }
+                    }
+                }
+                p.note { (chosen.note) }
+            }
+        },
+        // Too many to list, or known by their numbers: function codes.
         Content::Choice { raw, chosen } => html! {
-            p.entry class=(class) { span.label { (label) } span { (raw) ": " (chosen.label) } }
+            div.entry class=(class) data-path=(entry.path) {
+                (label_of(entry, &label))
+                div.control {
+                    input id=(entry.path) value=(raw) autocomplete="off" spellcheck="false";
+                    span.unit { (Message::term(chosen.label).sentence()) }
+                }
+            }
         },
         Content::Computed { width, computed, text } => html! {
             div.entry.computed class=(class) data-path=(entry.path) {
