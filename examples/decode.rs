@@ -5,7 +5,7 @@ use std::io::{Read, Write as _};
 use std::process::ExitCode;
 
 use buslens::field::Direction;
-use buslens::tool::{Options, PROFILES, PROTOCOLS, decode, json, settings};
+use buslens::tool::{Options, PROFILES, PROTOCOLS, Profile, Protocol, decode, json, settings};
 
 fn main() -> ExitCode {
     match run() {
@@ -42,12 +42,12 @@ fn run() -> Result<String, String> {
             "--protocol" => {
                 let keys = keys("auto", PROTOCOLS.iter().map(|protocol| protocol.key));
                 let key = choice(&keys)?;
-                options.protocol = PROTOCOLS.iter().copied().find(|protocol| protocol.key == key);
+                options.protocol = Protocol::of(key);
             }
             "--device" => {
                 let keys = keys("none", PROFILES.iter().map(|profile| profile.key));
                 let key = choice(&keys)?;
-                options.device = PROFILES.iter().copied().find(|profile| profile.key == key);
+                options.device = Profile::of(key);
             }
             "--input" => _ = choice(&["auto", "text"])?,
             "--language" => _ = choice(&["en"])?,

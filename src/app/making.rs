@@ -16,6 +16,9 @@ use crate::tool::{Editor, Offer, Options, PROTOCOLS, Profile, Protocol, offers};
 pub struct Making {
     /// What can be built, and what of it is.
     made: RwSignal<Made, LocalStorage>,
+    /// What follows from it. A signal of its own: it changes with each keystroke, the list of what can be
+    /// built does not.
+    pub outcome: RwSignal<Outcome, LocalStorage>,
     /// Counts on whenever the form has other entries than before. In between, its fields stay as they
     /// are while somebody types.
     pub shape: RwSignal<usize>,
@@ -28,23 +31,21 @@ pub struct Made {
     /// What was typed to find something.
     pub find: String,
     pub editor: Option<Editor>,
-    /// Why there are no bytes.
-    pub refused: Option<Message>,
-    /// What can come back.
-    pub replies: Vec<(Message, Vec<u8>)>,
 }
 
 impl Default for Made {
     fn default() -> Self {
-        Self {
-            device: None,
-            protocol: PROTOCOLS[0],
-            find: String::new(),
-            editor: None,
-            refused: None,
-            replies: Vec::new(),
-        }
+        Self { device: None, protocol: PROTOCOLS[0], find: String::new(), editor: None }
     }
+}
+
+/// What follows from what is built.
+#[derive(Default)]
+pub struct Outcome {
+    /// Why there are no bytes, or why what was asked for last is not done.
+    pub refused: Option<Message>,
+    /// What can come back.
+    pub replies: Vec<(Message, Vec<u8>)>,
 }
 
 impl Made {
@@ -58,11 +59,16 @@ impl Made {
 
 impl Making {
     pub fn new() -> Self {
-        Self { made: RwSignal::new_local(Made::default()), shape: RwSignal::new(0) }
+        Self {
+            made: RwSignal::new_local(Made::default()),
+            outcome: RwSignal::new_local(Outcome::default()),
+            shape: RwSignal::new(0),
+        }
     }
 
-    /// Looks at what is built, and is called again when something else is.
+    /// Looks at what is built, and is called again when something else is, or its form has other entries.
     pub fn with<T>(&self, look: impl FnOnce(&Made) -> T) -> T {
+        self.shape.track();
         self.made.with(look)
     }
 
@@ -79,7 +85,7 @@ impl Making {
     /// Builds for another device, or for any.
     pub fn ask_device(&self, state: State, device: Option<&'static Profile>) {
         self.made.update(|made| made.device = device);
-        self.show(state);
+        self.show(state, None);
         address::renew(Step::Chosen);
     }
 
@@ -98,37 +104,33 @@ impl Making {
                 made.editor = Some(editor);
             }
         });
-        self.reshape();
-        self.show(state);
-        address::renew(Step::Chosen);
+        self.chosen(state, None);
     }
 
     /// Lets another protocol carry it.
     pub fn carry_by(&self, state: State, protocol: &'static Protocol) {
+        let mut refused = None;
         self.made.update(|made| {
-            let settings = state.settings();
-            made.refused = match &mut made.editor {
-                Some(editor) => editor.carry_by(protocol, &settings).err(),
-                None => None,
-            };
-            if made.refused.is_none() {
+            refused =
+                made.editor.as_mut().and_then(|editor| editor.carry_by(protocol, &state.settings()).err());
+            if refused.is_none() {
                 made.protocol = protocol;
             }
         });
-        self.reshape();
-        self.show(state);
-        address::renew(Step::Chosen);
+        self.chosen(state, refused);
     }
 
     /// Makes every field an entry of the form.
     pub fn open_all(&self, state: State) {
-        self.made.update(|made| {
-            if let Some(editor) = &mut made.editor {
-                made.refused = editor.open_all().err();
-            }
-        });
+        let mut refused = None;
+        self.made.update(|made| refused = made.editor.as_mut().and_then(|editor| editor.open_all().err()));
+        self.chosen(state, refused);
+    }
+
+    /// Something else is built, or `refused` says why not.
+    fn chosen(&self, state: State, refused: Option<Message>) {
         self.reshape();
-        self.show(state);
+        self.show(state, refused);
         address::renew(Step::Chosen);
     }
 
@@ -139,16 +141,13 @@ impl Making {
             if let Some(editor) = &mut made.editor {
                 let before = form::shape(editor.entries());
                 edit(editor);
-                other = form::shape(editor.entries()) != before;
-                if !other {
-                    form::refresh(editor.entries());
-                }
+                other = form::outgrown(&before, editor.entries());
             }
         });
         if other {
             self.reshape();
         }
-        self.show(state);
+        self.show(state, None);
         address::renew(Step::Typed);
     }
 
@@ -157,27 +156,26 @@ impl Making {
     }
 
     /// Shows the telegram as Decode would.
-    fn show(&self, state: State) {
+    fn show(&self, state: State, refused: Option<Message>) {
         browser::set_field(browser::PROTOCOL, self.now(|made| made.protocol.key));
         browser::set_field(browser::DEVICE, self.now(|made| made.device.map_or("", |it| it.key)));
         let mut text = None;
         let mut options = Options::default();
+        let mut outcome = Outcome { refused, replies: Vec::new() };
         let settings = state.settings();
-        self.made.update(|made| {
+        self.made.update_untracked(|made| {
             options.device = made.device;
             if let Some(editor) = &mut made.editor {
                 options.protocol = Some(editor.protocol);
                 options.direction = Some(editor.direction);
-                made.replies = editor.replies(&settings);
+                outcome.replies = editor.replies(&settings);
                 match editor.bytes() {
-                    Ok(bytes) => {
-                        made.refused = None;
-                        text = Some(hex(&bytes));
-                    }
-                    Err(message) => made.refused = Some(message),
+                    Ok(bytes) => text = Some(hex(&bytes)),
+                    Err(message) => outcome.refused = Some(message),
                 }
             }
         });
+        self.outcome.set(outcome);
         state.show_built(text.unwrap_or_default(), options);
     }
 }
@@ -214,7 +212,7 @@ impl Shows for (Making, State) {
             making.choose(*state, 0);
         } else {
             making.reshape();
-            making.show(*state);
+            making.show(*state, None);
         }
     }
 }

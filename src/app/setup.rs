@@ -52,10 +52,7 @@ impl Setup {
         self.kept.update(|Kept { settings, entries }| {
             let before = form::shape(entries);
             entries.edit(settings, path, change);
-            other = form::shape(entries) != before;
-            if !other {
-                form::refresh(entries);
-            }
+            other = form::outgrown(&before, entries);
         });
         if other {
             self.reshape();

@@ -5,7 +5,7 @@ use leptos::prelude::*;
 
 use super::address::{self, Shows, Step};
 use super::browser;
-use crate::field::{Direction, Field, Span, leaves};
+use crate::field::{Direction, Field, Span, count, leaves};
 use crate::tool::link::Link;
 use crate::tool::{Detail, Options, Report, Settings, Summary, Telegram, decode};
 
@@ -225,11 +225,6 @@ fn show_options(options: &Options) {
 /// The telegram at byte `cursor` of the text, or the next one.
 fn telegram_at(report: &Report, cursor: usize) -> Option<usize> {
     report.telegrams.iter().position(|telegram| cursor <= telegram.line.span.to)
-}
-
-/// "1 telegram", "3 telegrams".
-pub fn count(n: usize, noun: &str) -> String {
-    if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
 }
 
 fn announcement(summary: Summary) -> String {

@@ -6,7 +6,7 @@ use leptos::prelude::*;
 use super::address::{self, Shows};
 use super::browser;
 use crate::tool::link::Link;
-use crate::tool::steps::{Algorithm, CHECKS, Deed, Step, bytes_of, steps};
+use crate::tool::steps::{Algorithm, CHECKS, Deed, Step, bytes, steps};
 
 /// The page's state, as handed to every part of it.
 #[derive(Clone, Copy)]
@@ -26,7 +26,7 @@ pub struct Followed {
 
 impl Followed {
     fn new(text: String, check: &'static Algorithm, at: usize) -> Self {
-        let bytes = bytes_of(&text);
+        let bytes = bytes(&text);
         let steps = steps(check, &bytes);
         Self { at: at.min(steps.len() - 1), text, check, bytes, steps }
     }

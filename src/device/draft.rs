@@ -1,10 +1,7 @@
 //! What to ask of a device, in its manual's words, and the registers that this is.
 
-use std::ops::RangeInclusive;
-
-use super::keb_f5::sets;
-use super::{Access, Area, Content, Numbers, Parameter, Part, Profile};
-use crate::field::{Argument, Bits, Message, Role, Spec};
+use super::{Access, Area, Content, Numbers, Parameter, Part, Profile, keb_f5};
+use crate::field::{Argument, Message, Role, Spec};
 use crate::message;
 use crate::walk::{self, Deviations, Telegram, Walk, Walker};
 
@@ -161,7 +158,7 @@ impl Draft {
             Target::Parameter(Parameter { subindex: Some(_), .. }) => return false,
             Target::Parameter(parameter) => parameter.address,
         };
-        self.by_index() && INVERTER.contains(&address)
+        self.by_index() && keb_f5::INVERTER_INDICES.contains(&address)
     }
 
     /// The registers of what was filled in, or what is wrong with the number.
@@ -216,14 +213,9 @@ impl Telegram for Draft {
 static NUMBER: Spec =
     Spec::new("number", "Number").role(Role::Address).note("Which one, as the manual counts them.");
 
-/// The indices of inverter parameters.
-const INVERTER: RangeInclusive<u16> = 0x2000..=0x5EFF;
-
 static SETS: Spec = Spec::new("subindex", "Sets")
     .role(Role::Address)
-    .bits(&SET_BITS)
+    .bits(&keb_f5::SETS)
     .note("The sets that are meant, one bit for each; 0 for the set that Fr.09 chooses.");
-
-static SET_BITS: [Bits; 8] = sets(0);
 
 static CONTENT: Spec = Spec::new("content", "Content").note("What is written.");

@@ -48,7 +48,7 @@ const MOST_WORDS: usize = 8;
 
 /// A set mask: the sets 0 to 7 of a parameter, one bit each, from bit `from` on. Several at once
 /// are all written; they can be read as long as they have the same value.
-pub const fn sets(from: u32) -> [Bits; 8] {
+pub(super) const fn sets(from: u32) -> [Bits; 8] {
     [
         Bits::flag(from, "set_0", "set 0"),
         Bits::flag(from + 1, "set_1", "set 1"),
@@ -60,6 +60,9 @@ pub const fn sets(from: u32) -> [Bits; 8] {
         Bits::flag(from + 7, "set_7", "set 7"),
     ]
 }
+
+/// A byte that is a set mask.
+pub static SETS: [Bits; 8] = sets(0);
 
 /// The inverter's parameters, where both buses have them.
 pub(super) const fn inverter_parameters(note: &'static str, source: &'static str) -> Area {

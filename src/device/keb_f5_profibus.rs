@@ -626,15 +626,13 @@ const WORD_INDEX: Spec = Spec::new("word_index", "Index")
     .note("Which parameter this word of process data carries. Writing it switches the data off.");
 
 const WORD_SET: Spec = Spec::new("word_set", "Set")
-    .bits(&SETS)
+    .bits(&keb_f5::SETS)
     .names(&[Name { value: 0, label: "no set", note: "" }])
     .note("In which sets of the parameter the word is. Writing it switches the data off.");
 
 const SECOND_BYTE: Spec = Spec::new("second_byte", "Second byte")
     .limits(0, 0)
     .note("Always 0: the second byte of a word belongs to the same parameter as the first.");
-
-static SETS: [Bits; 8] = keb_f5::sets(0);
 
 const BYTES_1_TO_8: &[Bits] = flags!("byte" 0: 1, 1: 2, 2: 3, 3: 4, 4: 5, 5: 6, 6: 7, 7: 8);
 

@@ -202,6 +202,11 @@ impl Settings {
 }
 
 impl Profile {
+    /// The device with this key.
+    pub fn of(key: &str) -> Option<&'static Self> {
+        PROFILES.iter().copied().find(|profile| profile.key == key)
+    }
+
     /// All addresses with a name of their own.
     pub fn parameters(&self) -> impl Iterator<Item = &'static Parameter> {
         self.parameters.iter().copied().flatten()

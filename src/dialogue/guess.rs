@@ -12,6 +12,13 @@ pub struct Guess {
     pub reason: Message,
 }
 
+impl Guess {
+    /// The direction; `None` where it is open.
+    pub fn told(&self) -> Option<Direction> {
+        (self.certainty != Certainty::Open).then_some(self.direction)
+    }
+}
+
 /// How sure a direction is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Certainty {

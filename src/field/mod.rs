@@ -67,6 +67,16 @@ impl Direction {
             Self::Response => "response",
         }
     }
+
+    /// The direction with this key.
+    pub fn of(key: &str) -> Option<Self> {
+        [Self::Request, Self::Response].into_iter().find(|direction| direction.key() == key)
+    }
+}
+
+/// "1 telegram", "3 telegrams".
+pub fn count(n: usize, noun: &str) -> String {
+    if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
 }
 
 /// Which one of a list a field is.

@@ -64,6 +64,13 @@ pub enum Cargo {
     Profibus(&'static Kind, Box<dyn Body>),
 }
 
+impl Protocol {
+    /// The protocol with this key.
+    pub fn of(key: &str) -> Option<&'static Self> {
+        PROTOCOLS.iter().copied().find(|protocol| protocol.key == key)
+    }
+}
+
 /// What tells a request from a response.
 #[derive(Clone, Copy, Debug)]
 pub enum Speaker {
@@ -100,6 +107,18 @@ pub enum Verdict {
     Unchecked,
     /// The protocol has none: what is below it checks.
     NoCheck,
+}
+
+impl Verdict {
+    /// What it says, in a few words.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Right => "check right",
+            Self::Wrong => "check failed",
+            Self::Unchecked => "too short to check",
+            Self::NoCheck => "no check of its own",
+        }
+    }
 }
 
 /// How devices are set up, as far as telegrams depend on it.

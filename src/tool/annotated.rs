@@ -1,8 +1,7 @@
 //! A report as plain text for a mail or a ticket: every telegram with its bytes and what they say.
 
 use super::{Report, Verdict};
-use crate::dialogue::Certainty;
-use crate::field::{Field, Severity, hex};
+use crate::field::{Direction, Field, Severity, count, hex};
 
 /// The whole report.
 ///
@@ -27,8 +26,7 @@ pub fn text(report: &Report) -> String {
 /// "3 telegrams, 1 answered, 1 failed check".
 pub fn summary(report: &Report) -> String {
     let summary = report.summary();
-    let counted = |n: usize, noun: &str| format!("{n} {noun}{}", if n == 1 { "" } else { "s" });
-    let mut parts = vec![counted(summary.telegrams, "telegram"), format!("{} answered", summary.pairs)];
+    let mut parts = vec![count(summary.telegrams, "telegram"), format!("{} answered", summary.pairs)];
     if summary.unanswered > 0 {
         parts.push(format!("{} unanswered", summary.unanswered));
     }
@@ -36,10 +34,10 @@ pub fn summary(report: &Report) -> String {
         (0, 0) => "nothing to check".to_owned(),
         (0, checked) if checked == summary.telegrams => "all checks right".to_owned(),
         (0, checked) => format!("{checked} checked, all right"),
-        (failed, _) => format!("{} failed", counted(failed, "check")),
+        (failed, _) => format!("{} failed", count(failed, "check")),
     });
     if summary.lines_not_understood > 0 {
-        parts.push(format!("{} without bytes", counted(summary.lines_not_understood, "line")));
+        parts.push(format!("{} without bytes", count(summary.lines_not_understood, "line")));
     }
     format!("{}.\n", parts.join(", "))
 }
@@ -49,10 +47,7 @@ fn telegram(report: &Report, index: usize) -> String {
     let (Some(telegram), Some(detail)) = (report.telegrams.get(index), report.detail(index)) else {
         return String::new();
     };
-    let direction = match telegram.guess.certainty {
-        Certainty::Open => "telegram",
-        Certainty::Certain | Certainty::Likely => telegram.guess.direction.key(),
-    };
+    let direction = telegram.guess.told().map_or("telegram", Direction::key);
     let bytes = &telegram.line.bytes;
     let mut text = format!(
         "{}. {} {direction}{}: {}.\n   {}\n",

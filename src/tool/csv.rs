@@ -1,8 +1,7 @@
 //! A report as a table for spreadsheets: RFC 4180, a row for each telegram.
 
 use super::{Report, Verdict};
-use crate::dialogue::Certainty;
-use crate::field::hex;
+use crate::field::{Direction, hex};
 
 /// The columns.
 const HEAD: [&str; 11] = [
@@ -31,10 +30,7 @@ pub fn table(report: &Report) -> String {
     let mut text = row(HEAD.map(str::to_owned));
     for (index, telegram) in report.telegrams.iter().enumerate() {
         let Some(detail) = report.detail(index) else { continue };
-        let direction = match telegram.guess.certainty {
-            Certainty::Open => "unknown",
-            Certainty::Certain | Certainty::Likely => telegram.guess.direction.key(),
-        };
+        let direction = telegram.guess.told().map_or("unknown", Direction::key);
         let check = match telegram.verdict {
             Verdict::Right => "right",
             Verdict::Wrong => "wrong",

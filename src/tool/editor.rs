@@ -264,14 +264,6 @@ impl Editor {
         replies.into_iter().map(|mut reply| (reply.label, bytes(reply.frame.as_mut()))).collect()
     }
 
-    /// The telegram, if its every field is an entry.
-    pub fn frame(&mut self) -> Option<&mut dyn Frame> {
-        match &mut self.subject {
-            Subject::Telegram(frame) => Some(frame.as_mut()),
-            Subject::Task(_) => None,
-        }
-    }
-
     /// Changes the entry at `path`.
     pub fn edit(&mut self, path: &str, change: Change) {
         self.entries.edit(self.subject.telegram(), path, change);

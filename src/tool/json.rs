@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-use super::{Certainty, Detail, Explanation, Report, Telegram, Verdict};
+use super::{Detail, Explanation, Report, Telegram, Verdict};
 use crate::device::Block;
-use crate::field::{Field, Message, hex};
+use crate::field::{Direction, Field, Message, hex};
 use crate::profibus;
 
 /// One telegram. Keys that do not apply are left out.
@@ -213,10 +213,7 @@ fn row(index: usize, telegram: &Telegram, detail: Detail, fields: bool) -> Row {
         line: line.number,
         length: line.bytes.len(),
         protocol: telegram.choice.protocol.key,
-        direction: match telegram.guess.certainty {
-            Certainty::Open => "unknown",
-            Certainty::Certain | Certainty::Likely => telegram.guess.direction.key(),
-        },
+        direction: telegram.guess.told().map_or("unknown", Direction::key),
         bytes: hex(&line.bytes),
         unit: detail.unit,
         function: detail.function,

@@ -13,7 +13,7 @@
 //! What is missing is as when nobody chose. Unknown keys are passed over: a newer page may have made
 //! the link.
 
-use super::{Options, PROFILES, PROTOCOLS, settings};
+use super::{Options, Profile, Protocol, settings};
 use crate::field::{Direction, hex};
 use crate::text;
 
@@ -42,12 +42,9 @@ impl Link {
             let options = &mut link.options;
             match key.as_str() {
                 "text" => link.text = value,
-                "protocol" => options.protocol = PROTOCOLS.iter().copied().find(|it| it.key == value),
-                "direction" => {
-                    let both = [Direction::Request, Direction::Response];
-                    options.direction = both.into_iter().find(|it| it.key() == value);
-                }
-                "device" => options.device = PROFILES.iter().copied().find(|it| it.key == value),
+                "protocol" => options.protocol = Protocol::of(&value),
+                "direction" => options.direction = Direction::of(&value),
+                "device" => options.device = Profile::of(&value),
                 "settings" => options.settings = kept_settings(&value),
                 "telegram" => link.telegram = value.parse().unwrap_or(1_usize).saturating_sub(1),
                 "task" => link.task = Some(value),
@@ -88,14 +85,14 @@ pub fn keep_settings(settings: &super::Settings) -> String {
 
 /// What [`keep_settings`] wrote.
 pub fn kept_settings(text: &str) -> super::Settings {
-    let bytes: Vec<u8> = text::read(text).lines.into_iter().flat_map(|line| line.bytes).collect();
-    settings::from_bytes(&bytes)
+    settings::from_bytes(&text::bytes(text))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::tool::settings::changed;
+    use crate::tool::{PROFILES, PROTOCOLS};
 
     #[test]
     fn what_is_written_is_read_again() {

@@ -13,8 +13,7 @@
 //! ```
 
 use super::{Entries, Settings};
-use crate::device::keb_f5::sets;
-use crate::device::{Entry, Mapping, ProcessWord, mapping_entry};
+use crate::device::{Entry, Mapping, ProcessWord, keb_f5, mapping_entry};
 use crate::field::{Bits, Format, Message, Name, Role, Spec};
 use crate::message;
 use crate::modbus::{DIALECTS, STANDARD};
@@ -163,8 +162,7 @@ static INDEX: Spec = Spec::new("index", "Index")
     .role(Role::Address)
     .format(Format::Hex)
     .note("The parameter; 0 for the second word of a 32-bit value.");
-static SETS: Spec = Spec::new("sets", "Sets").role(Role::Address).bits(&SET_BITS);
-static SET_BITS: [Bits; 8] = sets(0);
+static SETS: Spec = Spec::new("sets", "Sets").role(Role::Address).bits(&keb_f5::SETS);
 
 static PROFIBUS: Spec = Spec::new("profibus", "PROFIBUS")
     .bits(&[

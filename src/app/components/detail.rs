@@ -10,9 +10,9 @@ use super::{Drawn, byte, check, drawn, examples, fields, layout, strip, views};
 use crate::app::address::fragment;
 use crate::app::browser::{self, DETAIL};
 use crate::app::state::{Chosen, Decoded, Shown, State};
-use crate::field::{Message, Severity, hex};
+use crate::field::{Direction, Message, Severity, hex};
 use crate::tool::link::Link;
-use crate::tool::{Certainty, Options, PROTOCOLS};
+use crate::tool::{Certainty, Options, Protocol};
 
 /// Buttons for what can be done with a telegram, to which a link is given.
 pub type Actions = fn(&Shown, &str) -> Markup;
@@ -33,32 +33,15 @@ pub fn Telegram(state: State, actions: Actions) -> impl IntoView {
         })
     });
     // What depends on the chosen byte is drawn by itself: the byte keeps the focus.
-    let byte = drawn(move || {
-        let chosen = state.chosen.get();
-        state.decoded.with(|decoded| match (&decoded.shown, chosen) {
-            (Some(shown), Some(chosen)) => byte::byte(shown, chosen.at),
-            _ => html! {},
-        })
+    let byte = of_shown(state, move |shown, _| match state.chosen.get() {
+        Some(chosen) => byte::byte(shown, chosen.at),
+        None => html! {},
     });
-    let check = drawn(move || {
-        state.decoded.with(|decoded| match &decoded.shown {
-            Some(shown) => check::check(shown, &link(shown, decoded)),
-            None => html! {},
-        })
-    });
-    let layout = drawn(move || {
-        state.decoded.with(|decoded| match &decoded.shown {
-            Some(shown) => layout::layout(&shown.detail, &decoded.report.layout(shown.index)),
-            None => html! {},
-        })
-    });
-    let registers = drawn(move || {
-        let chosen = state.chosen.get().map(|chosen| chosen.span);
-        state.decoded.with(|decoded| match &decoded.shown {
-            Some(shown) => views::chosen(shown, chosen),
-            None => html! {},
-        })
-    });
+    let registers =
+        of_shown(state, move |shown, _| views::chosen(shown, state.chosen.get().map(|chosen| chosen.span)));
+    let check = of_shown(state, |shown, decoded| check::check(shown, &link(shown, decoded)));
+    let layout =
+        of_shown(state, |shown, decoded| layout::layout(&shown.detail, &decoded.report.layout(shown.index)));
     let no_registers: Drawn<bool> = Box::new(move || state.decoded.with(|decoded| !has_registers(decoded)));
     let unchosen: Drawn<bool> = Box::new(move || state.chosen.get().is_none());
     let nothing: Drawn<bool> = Box::new(move || state.decoded.with(|decoded| decoded.shown.is_none()));
@@ -79,6 +62,16 @@ pub fn Telegram(state: State, actions: Actions) -> impl IntoView {
             </details>
         </section>
     }
+}
+
+/// What is drawn of the telegram that is shown; nothing where there is none.
+fn of_shown(state: State, draw: impl Fn(&Shown, &Decoded) -> Markup + Send + 'static) -> Drawn {
+    drawn(move || {
+        state.decoded.with(|decoded| match &decoded.shown {
+            Some(shown) => draw(shown, decoded),
+            None => html! {},
+        })
+    })
 }
 
 fn has_registers(decoded: &Decoded) -> bool {
@@ -106,7 +99,7 @@ fn click(state: State, event: &Event) {
     if let Some(index) = browser::attribute(event, "data-select").and_then(|index| index.parse().ok()) {
         state.select(index);
     } else if let Some(key) = browser::attribute(event, "data-protocol") {
-        state.read_as(|options| options.protocol = PROTOCOLS.iter().copied().find(|it| it.key == key));
+        state.read_as(|options| options.protocol = Protocol::of(&key));
     } else if browser::attribute(event, "data-close").is_some() {
         state.choose(None);
     } else if let Some(text) = browser::attribute(event, "data-copy") {
@@ -189,10 +182,7 @@ fn reading(shown: &Shown, decoded: &Decoded, actions: Actions) -> Markup {
     let telegram = &shown.telegram;
     // What somebody chose needs no reason.
     let by_hand = decoded.options.protocol.is_some() && decoded.options.direction.is_some();
-    let direction = match telegram.guess.certainty {
-        Certainty::Open => "telegram",
-        Certainty::Certain | Certainty::Likely => telegram.guess.direction.key(),
-    };
+    let direction = telegram.guess.told().map_or("telegram", Direction::key);
     let partner = telegram.answers.map(|index| ("answers telegram ", index));
     let partner = partner.or(telegram.answered_by.map(|index| ("answered by telegram ", index)));
     html! {

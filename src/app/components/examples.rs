@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use crate::app::browser;
 use crate::app::state::State;
-use crate::tool::PROFILES;
+use crate::tool::Profile;
 use crate::tool::examples::{EXAMPLES, Group};
 
 /// The examples as buttons, group by group.
@@ -29,7 +29,7 @@ pub fn load(state: State, event: &web_sys::Event) -> bool {
     let example = EXAMPLES.iter().find(|example| Some(example.key) == key.as_deref());
     if let Some(example) = example {
         state.load(example.text);
-        let device = PROFILES.iter().copied().find(|profile| profile.key == example.device);
+        let device = Profile::of(example.device);
         state.read_as(|options| options.device = device);
     }
     example.is_some()

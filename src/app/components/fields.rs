@@ -4,8 +4,8 @@ use maud::{Markup, html};
 
 use super::strip::{faulty, role_class};
 use crate::app::browser::span_text;
-use crate::app::state::{Shown, count};
-use crate::field::{Bits, Field, Message, Value, hex};
+use crate::app::state::Shown;
+use crate::field::{Bits, Field, Message, Value, count, hex};
 use crate::tool::Block;
 
 /// The rows of all fields of the telegram.

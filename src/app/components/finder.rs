@@ -8,8 +8,9 @@ use super::drawn;
 use super::settings::list;
 use crate::app::browser::{self, DEVICE, PROTOCOL};
 use crate::app::making::{Made, Making};
-use crate::app::state::{State, count};
-use crate::tool::{Editor, PROFILES, PROTOCOLS};
+use crate::app::state::State;
+use crate::field::count;
+use crate::tool::{Editor, PROFILES, PROTOCOLS, Profile, Protocol};
 
 #[component]
 pub fn Finder(making: Making) -> impl IntoView {
@@ -27,12 +28,10 @@ pub fn hear(making: Making, state: State, kind: &str, event: &Event) {
     match (kind, id.as_str()) {
         ("input", FIND) => making.find(browser::value(event)),
         ("change", DEVICE) => {
-            let key = browser::value(event);
-            making.ask_device(state, PROFILES.iter().copied().find(|it| it.key == key));
+            making.ask_device(state, Profile::of(&browser::value(event)));
         }
         ("change", PROTOCOL) => {
-            let key = browser::value(event);
-            if let Some(protocol) = PROTOCOLS.iter().copied().find(|it| it.key == key) {
+            if let Some(protocol) = Protocol::of(&browser::value(event)) {
                 making.carry_by(state, protocol);
             }
         }

@@ -55,8 +55,18 @@ pub fn shape(entries: &Entries) -> String {
     shape
 }
 
+/// Whether the form has other entries than the [`shape`] `before` tells, and is to be drawn anew. If not,
+/// its fields are brought up to date.
+pub fn outgrown(before: &str, entries: &Entries) -> bool {
+    let other = shape(entries) != before;
+    if !other {
+        refresh(entries);
+    }
+    other
+}
+
 /// Brings fields that stay in the page up to what the form says, and says beside them what does not fit.
-pub fn refresh(entries: &Entries) {
+fn refresh(entries: &Entries) {
     entries.form.visit(&mut |entry| {
         let path = &entry.path;
         let field = |part: &str| format!("{path}{part}");

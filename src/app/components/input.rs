@@ -6,8 +6,8 @@ use web_sys::{Element, Event, HtmlTextAreaElement};
 
 use super::{drawn, marks, settings};
 use crate::app::browser::{self, FILE, INPUT};
-use crate::app::state::{State, count};
-use crate::field::{Severity, Span};
+use crate::app::state::State;
+use crate::field::{Severity, Span, count};
 use crate::tool::{Remark, Report};
 
 #[component]

@@ -102,12 +102,13 @@ fn row(report: &Report, index: usize, selected: bool) -> Markup {
         (_, Direction::Request) => ("→", "request"),
         (_, Direction::Response) => ("←", "response"),
     };
-    let (mark, check, class) = match telegram.verdict {
-        Verdict::Right => ("✓", "check right", "good"),
-        Verdict::Wrong => ("✗", "check failed", "error"),
-        Verdict::Unchecked => ("…", "too short to check", "open"),
-        Verdict::NoCheck => ("–", "no check of its own", "open"),
+    let (mark, class) = match telegram.verdict {
+        Verdict::Right => ("✓", "good"),
+        Verdict::Wrong => ("✗", "error"),
+        Verdict::Unchecked => ("…", "open"),
+        Verdict::NoCheck => ("–", "open"),
     };
+    let check = telegram.verdict.words();
     html! {
         div.row role="option" id={ "telegram-" (index) } data-telegram=(index) aria-selected=(selected)
             aria-setsize=(report.telegrams.len()) aria-posinset=(index + 1) {

@@ -16,7 +16,9 @@ pub fn Form(making: Making) -> impl IntoView {
         making.now(form)
     });
     let refused = drawn(move || {
-        making.with(|made| html! { @if let Some(message) = &made.refused { (message.sentence()) "." } })
+        making
+            .outcome
+            .with(|outcome| html! { @if let Some(message) = &outcome.refused { (message.sentence()) "." } })
     });
     view! {
         <section class="card form" aria-label="Form">

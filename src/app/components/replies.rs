@@ -1,5 +1,7 @@
 //! What can come back to what is built, each to be opened and changed in turn.
 
+use std::ops::Range;
+
 use leptos::prelude::*;
 use maud::{Markup, html};
 
@@ -13,24 +15,33 @@ use crate::tool::link::Link;
 
 #[component]
 pub fn Replies(making: Making, state: State) -> impl IntoView {
-    let none: Drawn<bool> = Box::new(move || making.with(|made| made.replies.is_empty()));
-    let replies = drawn(move || making.with(|made| replies(made, state)));
-    view! { <section class="card replies" aria-label="What can come back" hidden=none inner_html=replies></section> }
+    let none: Drawn<bool> = Box::new(move || making.outcome.with(|outcome| outcome.replies.is_empty()));
+    let healthy = drawn(move || replies(making, state, 0..1));
+    let refusals = drawn(move || replies(making, state, 1..usize::MAX));
+    let no_refusals: Drawn<bool> = Box::new(move || making.outcome.with(|outcome| outcome.replies.len() < 2));
+    view! {
+        <section class="card replies" aria-label="What can come back" hidden=none>
+            <h2>"What can come back"</h2>
+            <div inner_html=healthy></div>
+            <details hidden=no_refusals>
+                <summary>"Or a refusal"</summary>
+                <div inner_html=refusals></div>
+            </details>
+            <p class="note">
+                "Each opens as a form of its own, where its values can be set; “back” in the browser returns to the request."
+            </p>
+        </section>
+    }
 }
 
-fn replies(made: &Made, state: State) -> Markup {
-    let Some((first, others)) = made.replies.split_first() else { return html! {} };
-    html! {
-        h2 { "What can come back" }
-        (reply(first, made, state))
-        @if !others.is_empty() {
-            details {
-                summary { "Or a refusal" }
-                @for other in others { (reply(other, made, state)) }
-            }
-        }
-        p.note { "Each opens as a form of its own, where its values can be set; “back” in the browser returns to the request." }
-    }
+/// Some of the replies; the first is a healthy device's.
+fn replies(making: Making, state: State, some: Range<usize>) -> Markup {
+    making.outcome.with(|outcome| {
+        making.now(|made| {
+            let replies = outcome.replies.iter().take(some.end).skip(some.start);
+            html! { @for it in replies { (reply(it, made, state)) } }
+        })
+    })
 }
 
 fn reply((label, bytes): &(Message, Vec<u8>), made: &Made, state: State) -> Markup {

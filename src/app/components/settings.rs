@@ -8,7 +8,7 @@ use super::examples;
 use crate::app::browser::{self, DEVICE, DIRECTION, FILE, PROTOCOL};
 use crate::app::state::State;
 use crate::field::Direction;
-use crate::tool::{PROFILES, PROTOCOLS};
+use crate::tool::{PROFILES, PROTOCOLS, Profile, Protocol};
 
 #[component]
 pub fn Settings() -> impl IntoView {
@@ -68,11 +68,8 @@ fn choose(state: State, event: &Event) {
     }
     let key = browser::value(event);
     state.read_as(|options| match list.as_str() {
-        PROTOCOL => options.protocol = PROTOCOLS.iter().copied().find(|it| it.key == key),
-        DEVICE => options.device = PROFILES.iter().copied().find(|it| it.key == key),
-        _ => {
-            let known = [Direction::Request, Direction::Response];
-            options.direction = known.into_iter().find(|it| it.key() == key);
-        }
+        PROTOCOL => options.protocol = Protocol::of(&key),
+        DEVICE => options.device = Profile::of(&key),
+        _ => options.direction = Direction::of(&key),
     });
 }

@@ -6,8 +6,8 @@ use maud::{Markup, html};
 use super::drawn;
 use super::strip::role_class;
 use crate::app::state::{Decoded, State};
-use crate::field::{Field, Message, Severity, hex, leaves};
-use crate::tool::{Certainty, Detail, Telegram, Verdict, annotated};
+use crate::field::{Direction, Field, Message, Severity, hex, leaves};
+use crate::tool::{Detail, Telegram, Verdict, annotated};
 
 #[component]
 pub fn Telegrams(state: State) -> impl IntoView {
@@ -43,17 +43,14 @@ fn sheet(decoded: &Decoded) -> Markup {
 
 fn telegram(index: usize, telegram: &Telegram, detail: &Detail) -> Markup {
     let bytes = &telegram.line.bytes;
-    let direction = match telegram.guess.certainty {
-        Certainty::Open => "telegram",
-        Certainty::Certain | Certainty::Likely => telegram.guess.direction.key(),
-    };
+    let direction = telegram.guess.told().map_or("telegram", Direction::key);
     html! {
         section.telegram {
             p.title {
                 (index + 1) " · " (telegram.choice.protocol.label) " " (direction)
                 @if let Some(request) = telegram.answers { ", answers " (request + 1) }
                 " · " (Message::bytes(bytes.len()))
-                " · " (check(telegram.verdict))
+                " · " (telegram.verdict.words())
             }
             h2 { (detail.meaning().sentence()) "." }
             @for problem in detail.problems() {
@@ -75,15 +72,6 @@ fn telegram(index: usize, telegram: &Telegram, detail: &Detail) -> Markup {
                 @for field in &detail.fields { (row(field, 0, bytes)) }
             }
         }
-    }
-}
-
-fn check(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Right => "check right",
-        Verdict::Wrong => "check failed",
-        Verdict::Unchecked => "too short to check",
-        Verdict::NoCheck => "no check of its own",
     }
 }
 

@@ -7,9 +7,8 @@ use web_sys::Event;
 use super::settings::list;
 use super::{Drawn, drawn};
 use crate::app::browser;
-use crate::app::state::count;
 use crate::app::stepping::{AT, BYTES, Followed, KIND, Stepping};
-use crate::field::hex_value;
+use crate::field::{count, hex_value};
 use crate::tool::steps::{CHECKS, Deed, MOST, POLYNOMIAL, Step};
 
 #[component]
