@@ -12,7 +12,7 @@ use super::{Access, Area, Parameter};
 use crate::field::{Bits, Format, Name, Spec};
 
 /// A word of process data: the PROFIBUS index of the parameter that it carries, and its sets as
-/// [`sets`] tells them apart. The second word of a 32-bit value has index 0.
+/// `sets` tells them apart. The second word of a 32-bit value has index 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ProcessWord {
     pub index: u16,

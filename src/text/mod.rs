@@ -1,6 +1,7 @@
 //! Pasted text into bytes, with each byte's place in the text.
 
 mod hex;
+pub mod log;
 
 pub use hex::{Line, Reading, Remark, Style, read};
 

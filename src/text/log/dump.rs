@@ -1,0 +1,84 @@
+//! Rows of hex dumps: xxd, `hexdump -C`, od, Wireshark. An offset, bytes, and often the same bytes
+//! as characters.
+
+/// Follows the offsets from row to row.
+#[derive(Debug, Default)]
+pub struct Dump {
+    /// The offset that the next row should have.
+    next: Option<usize>,
+}
+
+/// What the offset of a row says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Row {
+    /// Where the bytes begin in the line.
+    pub from: usize,
+    offset: usize,
+    /// It goes on where the row before it ended, or further on.
+    pub continues: bool,
+    /// Its words of two bytes have the low byte first, as od and hexdump write them.
+    pub low_first: bool,
+}
+
+impl Dump {
+    /// The row that a line is, if it is one.
+    pub fn row(&self, line: &[u8]) -> Option<Row> {
+        let start = line.iter().take_while(|c| matches!(c, b' ' | b'\t')).count();
+        let count = line[start..].iter().take_while(|c| c.is_ascii_hexdigit()).count();
+        let digits =
+            std::str::from_utf8(&line[start..start + count]).ok().filter(|_| (4..=16).contains(&count))?;
+        let end = start + count;
+        let blanks = |at: usize| {
+            line.get(at..).unwrap_or_default().iter().take_while(|c| matches!(c, b' ' | b'\t')).count()
+        };
+        let colon = line.get(end) == Some(&b':');
+        let from = end + usize::from(colon);
+        // od parts its offset, seven digits, with one blank only.
+        let od = count == 7 && !colon && blanks(from) == 1;
+        let parted = (colon && blanks(from) > 0) || blanks(from) > 1 || od;
+        if !parted || !line.get(from + blanks(from)).is_some_and(u8::is_ascii_hexdigit) {
+            return None;
+        }
+        // Most dumps count in hex, od in octal.
+        let values = [16, 10, 8].map(|radix| usize::from_str_radix(digits, radix).ok());
+        let offset = values[0]?;
+        let row = |offset, continues| Some(Row { from, offset, continues, low_first: od });
+        match self.next {
+            _ if offset == 0 => row(0, false),
+            Some(next) if values.contains(&Some(next)) => row(next, true),
+            // Rows are missing.
+            Some(next) if offset > next && offset.is_multiple_of(8) => row(offset, true),
+            None if offset.is_multiple_of(8) => row(offset, false),
+            _ => None,
+        }
+    }
+
+    /// The bytes of `row` were read, so many.
+    pub fn read(&mut self, row: Row, count: usize) {
+        self.next = Some(row.offset.saturating_add(count));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_follow_each_other() {
+        let mut dump = Dump::default();
+        let first = dump.row(b"00000000: 0510 0c90  ....").unwrap();
+        assert_eq!((first.from, first.continues), (9, false));
+        dump.read(first, 16);
+        assert!(dump.row(b"00000010: 0510 0c90  ....").unwrap().continues);
+        assert!(dump.row(b"0000020 05 10 0c 90").unwrap().continues, "16 in octal, of od");
+        assert!(dump.row(b"00000040: 0510").unwrap().continues, "rows are missing");
+        assert!(dump.row(b"00000013: 0510").is_none());
+    }
+
+    #[test]
+    fn other_lines_are_no_rows() {
+        for text in ["000000-Tx:01 03", "01 03 00 C8", "0103 00C8 0003", "0000 text", "2026  Mar"] {
+            assert_eq!(Dump::default().row(text.as_bytes()), None, "{text}");
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! Texts that are not UTF-8.
+
+/// How a text file's characters are coded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Encoding {
+    /// ASCII, UTF-8, or one of the old code pages: digits are the same in all.
+    Bytes,
+    Utf16LittleEndian,
+    Utf16BigEndian,
+    /// No text.
+    Binary,
+}
+
+/// Tells the encoding from the beginning of a file.
+pub fn encoding(beginning: &[u8]) -> Encoding {
+    match beginning {
+        [0xFF, 0xFE, ..] => return Encoding::Utf16LittleEndian,
+        [0xFE, 0xFF, ..] => return Encoding::Utf16BigEndian,
+        _ => {}
+    }
+    const ENOUGH: usize = 4096;
+    let looked = &beginning[..beginning.len().min(ENOUGH)];
+    let zeros = |parity: usize| looked.iter().skip(parity).step_by(2).filter(|c| **c == 0).count();
+    let (even, odd) = (zeros(0), zeros(1));
+    let text = |parity: usize| {
+        let mut half = looked.iter().skip(parity).step_by(2);
+        looked.len() > 3 && half.all(|c| matches!(c, b'\t' | b'\n' | b'\r' | b' '..=b'~'))
+    };
+    if even == 0 && odd == looked.len() / 2 && text(0) {
+        return Encoding::Utf16LittleEndian;
+    }
+    if odd == 0 && even == looked.len().div_ceil(2) && text(1) {
+        return Encoding::Utf16BigEndian;
+    }
+    let odd_controls = looked.iter().filter(|c| matches!(c, 0..=6 | 14..=26 | 28..=31 | 127)).count();
+    if odd_controls * 50 > looked.len() { Encoding::Binary } else { Encoding::Bytes }
+}
+
+/// A text in UTF-16 as UTF-8; halves of characters become �.
+pub fn to_utf8(text: &[u8], encoding: Encoding) -> Vec<u8> {
+    let unit = |pair: &[u8]| match encoding {
+        Encoding::Utf16BigEndian => u16::from_be_bytes([pair[0], pair[1]]),
+        _ => u16::from_le_bytes([pair[0], pair[1]]),
+    };
+    let units = text.chunks_exact(2).map(unit).skip_while(|unit| *unit == 0xFEFF);
+    let mut utf8 = Vec::with_capacity(text.len() / 2);
+    for c in char::decode_utf16(units) {
+        let c = c.unwrap_or(char::REPLACEMENT_CHARACTER);
+        utf8.extend_from_slice(c.encode_utf8(&mut [0; 4]).as_bytes());
+    }
+    utf8
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn encodings_are_told() {
+        assert_eq!(encoding(b"01 03 00 C8"), Encoding::Bytes);
+        assert_eq!(encoding(b""), Encoding::Bytes);
+        assert_eq!(encoding(&[1, 3, 0, 200, 0, 3, 0x84, 0x35]), Encoding::Binary);
+        for (big, marked) in [(false, false), (false, true), (true, false), (true, true)] {
+            let text: String = if marked { "\u{FEFF}TX: 01 é".into() } else { "TX: 01 03".into() };
+            let bytes: Vec<u8> = text
+                .encode_utf16()
+                .flat_map(|unit| if big { unit.to_be_bytes() } else { unit.to_le_bytes() })
+                .collect();
+            let found = encoding(&bytes);
+            let expected = if big { Encoding::Utf16BigEndian } else { Encoding::Utf16LittleEndian };
+            assert_eq!(found, expected, "{text}");
+            assert_eq!(to_utf8(&bytes, found), text.trim_start_matches('\u{FEFF}').as_bytes());
+        }
+    }
+}

@@ -1,0 +1,560 @@
+//! One line of a log: its time, who speaks in it, and its runs of bytes.
+
+use super::time;
+use super::words::{self, Sender, Weight};
+use crate::field::Span;
+
+/// How bytes without a mark of their own are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Numbers {
+    Hex,
+    Decimal,
+}
+
+/// Bytes that follow each other with the same separator.
+#[derive(Clone, Copy, Debug)]
+pub struct Run {
+    /// Its bytes in [`Scan::hex`], [`Scan::decimal`] and [`Scan::places`].
+    pub first: usize,
+    pub end: usize,
+    /// Its place in the line.
+    pub span: Span,
+    /// All its numbers can be hex.
+    pub hex: bool,
+    /// All its numbers can be decimal, and none is more than 255.
+    pub decimal: bool,
+    /// Written as `0x01`, `\x01` or `01h`: certainly bytes.
+    pub marked: bool,
+    /// One run of digits behind a colon, as Modbus ASCII has it.
+    pub colon: bool,
+    /// Who speaks, by what stands before it.
+    pub sender: Option<(Sender, Weight)>,
+    /// No other word is between the one that says who speaks and the run.
+    pub said: bool,
+    tokens: usize,
+    /// Where the second token's bytes begin.
+    second: usize,
+    separator: u8,
+    /// How wide the first separator is.
+    gap: usize,
+}
+
+impl Run {
+    /// How many bytes it has.
+    pub fn len(&self) -> usize {
+        self.end - self.first
+    }
+
+    /// How many numbers they are written as.
+    pub fn tokens(&self) -> usize {
+        self.tokens
+    }
+}
+
+/// What was found in a line. It is used for line after line, so that none allocates.
+#[derive(Debug, Default)]
+pub struct Scan {
+    pub hex: Vec<u8>,
+    pub decimal: Vec<u8>,
+    /// Where each byte stands in the line.
+    pub places: Vec<Span>,
+    pub runs: Vec<Run>,
+    pub time: Option<i64>,
+    /// Words that are neither bytes nor time.
+    pub words: usize,
+    /// Who speaks, by words anywhere in the line.
+    pub sender: Option<(Sender, Weight)>,
+    /// `COM8`, `ttyUSB0`: where the line is plugged in.
+    pub port: Option<Span>,
+    open: Option<Run>,
+    /// The words that say who speaks, since the last run: the last strong one and the last weak one.
+    strong: Option<Sender>,
+    weak: Option<Sender>,
+    words_since: usize,
+}
+
+/// What a token's digits are.
+enum Token {
+    /// Bytes were added: all can be hex, all can be decimal, they are marked as bytes.
+    Bytes {
+        hex: bool,
+        decimal: bool,
+        marked: bool,
+    },
+    Word,
+}
+
+impl Scan {
+    /// Reads `line` from `from` on. `numbers` says how bytes are written, if that is known.
+    pub fn read(&mut self, line: &[u8], from: usize, numbers: Option<Numbers>) {
+        self.hex.clear();
+        self.decimal.clear();
+        self.places.clear();
+        self.runs.clear();
+        (self.time, self.sender, self.port, self.open) = (None, None, None, None);
+        (self.strong, self.weak, self.words, self.words_since) = (None, None, 0, 0);
+        let mut at = from;
+        while at < line.len() {
+            let c = line[at];
+            at = match c {
+                b'\\' => self.escape(line, at),
+                b'"' | b'\'' => self.quoted(line, at),
+                b'<' | b'>' | b'-' | b'=' | 0xE2 => match words::arrow(line, at) {
+                    Some((sender, to)) => {
+                        self.close();
+                        self.say(sender, Weight::Strong);
+                        to
+                    }
+                    None if c == 0xE2 => self.word(line, at, numbers),
+                    None => at + 1,
+                },
+                _ if is_word(c) => self.word(line, at, numbers),
+                b' ' | b'\t' | b'|' => {
+                    match self.open.as_ref().is_some_and(|run| self.is_column(line, run)) {
+                        true => break,
+                        false => at + line[at..].iter().take_while(|other| **other == c).count(),
+                    }
+                }
+                _ => at + 1,
+            };
+        }
+        self.close();
+    }
+
+    /// The bytes of `run`, decimal only where they must be or are known to be.
+    pub fn bytes(&self, run: &Run, numbers: Numbers) -> &[u8] {
+        let decimal = run.decimal && (!run.hex || numbers == Numbers::Decimal) && !run.marked;
+        &(if decimal { &self.decimal } else { &self.hex })[run.first..run.end]
+    }
+
+    fn word(&mut self, line: &[u8], at: usize, numbers: Option<Numbers>) -> usize {
+        if is_digit(line[at]) {
+            // Bytes with dots or colons can go on like an address or a time.
+            let goes_on = self.open.as_ref().is_some_and(|run| run.tokens > 1 && run.span.to + 1 == at);
+            if let Some(to) = (!goes_on).then(|| address(line, at)).flatten() {
+                self.stranger();
+                return to;
+            }
+            if let Some(found) = (!goes_on).then(|| time::at(line, at)).flatten() {
+                self.close();
+                self.time = self.time.or(Some(found.micros));
+                return found.to;
+            }
+        }
+        let to = at + line[at..].iter().take_while(|c| is_word(**c)).count();
+        let first = self.hex.len();
+        match self.token(line, at, to, numbers) {
+            Token::Bytes { hex, decimal, marked } => self.join(line, at, to, first, (hex, decimal, marked)),
+            Token::Word => {
+                self.hex.truncate(first);
+                self.decimal.truncate(first);
+                self.places.truncate(first);
+                self.close();
+                match words::word(&line[at..to]) {
+                    Some((sender, weight)) => self.say(sender, weight),
+                    None => self.stranger(),
+                }
+                if is_port(&line[at..to]) {
+                    self.port = Some(Span::new(at, to));
+                }
+            }
+        }
+        to
+    }
+
+    /// Adds the bytes that the letters and digits `at..to` stand for.
+    fn token(&mut self, line: &[u8], at: usize, to: usize, numbers: Option<Numbers>) -> Token {
+        let text = &line[at..to];
+        if let [b'0', b'x' | b'X', ..] = text {
+            return self.prefixed(line, at, to);
+        }
+        let count = text.len();
+        let digits = text.iter().all(|c| is_digit(*c));
+        if digits || text.iter().all(u8::is_ascii_hexdigit) {
+            let decimal = digits && count <= 3 && numbers != Some(Numbers::Hex);
+            let value =
+                if decimal { text.iter().fold(0, |sum, c| sum * 10 + u32::from(c - b'0')) } else { 256 };
+            let hex =
+                count != 3 && (count < 2 || count.is_multiple_of(2)) && numbers != Some(Numbers::Decimal);
+            return match (hex, value < 256) {
+                (false, false) => Token::Word,
+                (false, true) => {
+                    self.push(0, value as u8, at, to);
+                    Token::Bytes { hex: false, decimal: true, marked: false }
+                }
+                (true, decimal) => {
+                    for pair in (at..to).step_by(2) {
+                        let end = (pair + 2).min(to);
+                        self.push(hex_value(&line[pair..end]), value as u8, pair, end);
+                    }
+                    Token::Bytes { hex: true, decimal: decimal && count <= 2, marked: false }
+                }
+            };
+        }
+        let suffixed =
+            matches!(text[count - 1], b'h' | b'H') && text[..count - 1].iter().all(u8::is_ascii_hexdigit);
+        match (suffixed, text) {
+            (true, [_, _] | [_, _, _] | [b'0', _, _, _]) => {
+                let from = if count == 4 { at + 1 } else { at };
+                self.push(hex_value(&line[from..to - 1]), 0, at, to);
+                Token::Bytes { hex: true, decimal: false, marked: true }
+            }
+            _ => Token::Word,
+        }
+    }
+
+    /// `0x1`, `0x01`, `0x0103`, `0x010x03`, and with the suffix of an integer's type.
+    fn prefixed(&mut self, line: &[u8], at: usize, to: usize) -> Token {
+        let mut from = at;
+        while let [b'0', b'x' | b'X', digits @ ..] = &line[from..to] {
+            let mut count = digits.iter().take_while(|c| c.is_ascii_hexdigit()).count();
+            // The zero before the next x is its own.
+            if matches!(digits.get(count), Some(b'x' | b'X')) {
+                count -= 1;
+            }
+            if count == 0 || (count > 2 && count % 2 == 1) {
+                return Token::Word;
+            }
+            for pair in (0..count).step_by(2) {
+                let place = if pair == 0 { from } else { from + 2 + pair };
+                let end = from + 2 + (pair + 2).min(count);
+                self.push(hex_value(&line[from + 2 + pair..end]), 0, place, end);
+            }
+            from += 2 + count;
+        }
+        match line[from..to].first() {
+            None | Some(b'u' | b'U' | b'l' | b'L' | b'i') if to - from <= 3 => {
+                Token::Bytes { hex: true, decimal: false, marked: true }
+            }
+            _ => Token::Word,
+        }
+    }
+
+    fn push(&mut self, hex: u8, decimal: u8, from: usize, to: usize) {
+        self.hex.push(hex);
+        self.decimal.push(decimal);
+        self.places.push(Span::new(from, to));
+    }
+
+    /// Takes the bytes from `first` on into the open run, or begins a new one.
+    fn join(
+        &mut self,
+        line: &[u8],
+        at: usize,
+        to: usize,
+        first: usize,
+        (hex, decimal, marked): (bool, bool, bool),
+    ) {
+        if let Some(run) = &mut self.open {
+            let gap = &line[run.span.to..at];
+            let separator = separator(gap);
+            let fits = (run.hex && hex) || (run.decimal && decimal);
+            let same = run.tokens < 2
+                || Some(run.separator) == separator
+                || (run.tokens == 8 && run.separator == b' ' && gap == b"-");
+            if let Some(separator) = separator.filter(|_| fits && run.marked == marked) {
+                if run.tokens == 1 {
+                    (run.separator, run.gap, run.second) = (separator, gap.len(), first);
+                }
+                // `8: 01 03 …`: the first one is not of the run.
+                let restart = !same && run.tokens == 2 && Some(run.separator) != Some(separator);
+                if restart {
+                    run.first = run.second;
+                    run.span.from = self.places[run.first].from;
+                    (run.separator, run.gap, run.second) = (separator, gap.len(), first);
+                    run.tokens = 1;
+                    run.colon = false;
+                }
+                if same || restart {
+                    run.end = self.hex.len();
+                    run.span.to = to;
+                    run.tokens += 1;
+                    run.hex &= hex;
+                    run.decimal &= decimal;
+                    run.colon = false;
+                    return;
+                }
+            }
+        }
+        self.close();
+        let before = |back: usize| at.checked_sub(back).map(|place| line[place]);
+        let colon = before(1) == Some(b':') && !before(2).is_some_and(|c| c.is_ascii_alphanumeric());
+        let sender = self.strong.map(|sender| (sender, Weight::Strong));
+        self.open = Some(Run {
+            first,
+            end: self.hex.len(),
+            span: Span::new(at, to),
+            hex,
+            decimal,
+            marked,
+            colon: colon && to - at >= 6,
+            sender: sender.or(self.weak.map(|sender| (sender, Weight::Weak))),
+            said: self.words_since == 0 && (self.strong.is_some() || self.weak.is_some()),
+            tokens: 1,
+            second: first,
+            separator: 0,
+            gap: 0,
+        });
+    }
+
+    fn close(&mut self) {
+        let Some(mut run) = self.open.take() else { return };
+        // [01][03] is sent and <01><03> received: libmodbus writes so.
+        let sender = match run.separator {
+            b']' => Some(Sender::Logger),
+            b'>' => Some(Sender::Other),
+            _ => None,
+        };
+        if let Some(sender) = sender.filter(|_| run.tokens > 2 && run.sender.is_none()) {
+            run.sender = Some((sender, Weight::Strong));
+        }
+        /// So many bytes that what is said before them is not said of the next ones.
+        const TELEGRAM: usize = 4;
+        if run.len() >= TELEGRAM {
+            (self.strong, self.weak) = (None, None);
+        }
+        self.runs.push(run);
+    }
+
+    fn say(&mut self, sender: Sender, weight: Weight) {
+        match weight {
+            Weight::Strong => self.strong = Some(sender),
+            Weight::Weak => self.weak = Some(sender),
+        }
+        if self.sender.is_none_or(|(_, known)| known < weight) {
+            self.sender = Some((sender, weight));
+        }
+        self.words += 1;
+        self.words_since = 0;
+    }
+
+    /// A word that says nothing.
+    fn stranger(&mut self) {
+        self.close();
+        self.words += 1;
+        self.words_since += 1;
+    }
+
+    /// `\x01` outside of quotes.
+    fn escape(&mut self, line: &[u8], at: usize) -> usize {
+        let digits = line.get(at + 2..at + 4).filter(|digits| digits.iter().all(u8::is_ascii_hexdigit));
+        match (line.get(at + 1), digits) {
+            (Some(b'x' | b'X'), Some(digits)) => {
+                let first = self.hex.len();
+                self.push(hex_value(digits), 0, at, at + 4);
+                self.join(line, at, at + 4, first, (true, false, true));
+                at + 4
+            }
+            _ => at + 1,
+        }
+    }
+
+    /// A string with escapes in it is bytes, each character one: `b'\x01\x03E'`.
+    fn quoted(&mut self, line: &[u8], at: usize) -> usize {
+        let quote = line[at];
+        let mut to = at + 1;
+        let mut escaped = false;
+        while to < line.len() && line[to] != quote {
+            escaped |= line[to] == b'\\' && matches!(line.get(to + 1), Some(b'x' | b'X' | b'0'..=b'7'));
+            to += if line[to] == b'\\' { 2 } else { 1 };
+        }
+        if !escaped || to >= line.len() {
+            return at + 1;
+        }
+        self.close();
+        let first = self.hex.len();
+        let mut from = at + 1;
+        while from < to {
+            let (byte, length) = character(&line[from..to]);
+            self.push(byte, 0, from, from + length);
+            from += length;
+        }
+        self.join(line, at, to + 1, first, (true, false, true));
+        self.close();
+        to + 1
+    }
+
+    /// Whether what follows the open run shows its bytes as characters.
+    fn is_column(&self, line: &[u8], run: &Run) -> bool {
+        let rest = &line[run.span.to..];
+        let wide = rest.len() > 1 && matches!(rest[1], b' ' | b'\t' | b'|') && run.gap < 2;
+        let bytes = &self.hex[run.first..run.end];
+        if !wide && rest[0] != b'|' {
+            return false;
+        }
+        let text = rest.trim_ascii_end();
+        let text = text.strip_suffix(b"|").unwrap_or(text);
+        let blank = text.iter().take_while(|c| matches!(c, b' ' | b'\t' | b'|')).count();
+        // A column can begin with blanks that stand for bytes.
+        let shows = |from: usize| {
+            let column = &text[from..];
+            let same = |(c, byte): (&u8, &u8)| c == byte || (*c == b'.' && !matches!(byte, b'!'..=b'~'));
+            column.len() <= bytes.len()
+                && column.iter().zip(bytes).all(same)
+                && bytes[column.len()..].iter().all(|byte| *byte == b' ')
+        };
+        blank > 0 && text.len() <= blank + bytes.len() && (1..=blank).any(shows)
+    }
+}
+
+/// The byte of a character in a string, and how long it is there.
+fn character(text: &[u8]) -> (u8, usize) {
+    let octal = text.iter().skip(1).take(3).take_while(|c| (b'0'..=b'7').contains(c)).count();
+    match text {
+        [b'\\', b'x' | b'X', a, b, ..] if a.is_ascii_hexdigit() && b.is_ascii_hexdigit() => {
+            (hex_value(&[*a, *b]), 4)
+        }
+        [b'\\', ..] if octal > 0 => {
+            let value = text[1..=octal].iter().fold(0_u32, |sum, c| sum * 8 + u32::from(c - b'0'));
+            (value as u8, 1 + octal)
+        }
+        [b'\\', c, ..] => {
+            let byte = match c {
+                b'n' => b'\n',
+                b'r' => b'\r',
+                b't' => b'\t',
+                b'a' => 7,
+                b'b' => 8,
+                b'v' => 11,
+                b'f' => 12,
+                c => *c,
+            };
+            (byte, 2)
+        }
+        [c, ..] => (*c, 1),
+        [] => (0, 1),
+    }
+}
+
+/// What kind of separator `gap` is: its first mark, or a blank; `None` if it parts more than bytes.
+fn separator(gap: &[u8]) -> Option<u8> {
+    const LONGEST: usize = 12;
+    let mut found = if gap.is_empty() { 0 } else { b' ' };
+    for c in gap {
+        match c {
+            b' ' | b'\t' => {}
+            b',' | b';' | b':' | b'.' | b'-' | b'|' | b'/' | b'[' | b']' | b'<' | b'>' | b'"' | b'\''
+            | b'_' => {
+                if found == b' ' {
+                    found = *c;
+                }
+            }
+            _ => return None,
+        }
+    }
+    (gap.len() <= LONGEST).then_some(found)
+}
+
+/// The end of an IP address, with its port: four decimal numbers with dots between, and no more.
+fn address(line: &[u8], at: usize) -> Option<usize> {
+    let mut to = at;
+    for part in 0..4 {
+        if part > 0 {
+            to = (line.get(to) == Some(&b'.')).then_some(to + 1)?;
+        }
+        let (value, end) = digits(line, to)?;
+        to = (value < 256 && end - to <= 3).then_some(end)?;
+    }
+    match line.get(to) {
+        Some(b':') => digits(line, to + 1).map(|(_, end)| end),
+        Some(b'.') if line.get(to + 1).is_some_and(u8::is_ascii_hexdigit) => None,
+        Some(c) if is_word(*c) => None,
+        _ => Some(to),
+    }
+}
+
+/// Whether a word names a serial port.
+fn is_port(word: &[u8]) -> bool {
+    let numbered = |prefix: &[u8]| {
+        word.len() > prefix.len()
+            && word[..prefix.len()].eq_ignore_ascii_case(prefix)
+            && word[prefix.len()..].iter().all(|c| is_digit(*c))
+    };
+    [b"com".as_slice(), b"ttyusb", b"ttys", b"ttyacm", b"ttyama"].into_iter().any(numbered)
+}
+
+/// The number whose digits begin at `at`, and where they end.
+pub(super) fn digits(line: &[u8], at: usize) -> Option<(u64, usize)> {
+    const MOST: usize = 15;
+    let count = line.get(at..)?.iter().take(MOST + 1).take_while(|c| is_digit(**c)).count();
+    let value = line[at..at + count].iter().fold(0, |sum, c| sum * 10 + u64::from(c - b'0'));
+    (1..=MOST).contains(&count).then_some((value, at + count))
+}
+
+pub(super) fn is_digit(c: u8) -> bool {
+    c.is_ascii_digit()
+}
+
+/// Whether a character is part of a word. What is not ASCII is letters.
+fn is_word(c: u8) -> bool {
+    c.is_ascii_alphanumeric() || c >= 0x80
+}
+
+/// The value of up to two hex digits.
+fn hex_value(digits: &[u8]) -> u8 {
+    digits
+        .iter()
+        .fold(0, |value, c| value << 4 | (if is_digit(*c) { c - b'0' } else { (c | 32) - b'a' + 10 }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::field::{Direction, hex};
+
+    /// The bytes of the longest run.
+    fn read(text: &str) -> (String, Option<Sender>) {
+        let mut scan = Scan::default();
+        scan.read(text.as_bytes(), 0, None);
+        let Some(run) = scan.runs.iter().max_by_key(|run| run.len()) else { return (String::new(), None) };
+        (hex(scan.bytes(run, Numbers::Hex)), run.sender.map(|(sender, _)| sender))
+    }
+
+    #[test]
+    fn bytes_are_found_among_other_things() {
+        for text in [
+            "01 03 00 C8 00 03 84 35",
+            "000017-Tx:01 03 00 C8 00 03 84 35",
+            "[RTU]>Tx > 09:30:05:081 - 01  03  00  C8  00  03  84  35  ",
+            "2026-03-02 09:30:05.091 DEBUG (SyncWorker_1) [pymodbus.transaction] SEND: 0x1 0x3 0x0 0xc8 0x0 0x3 0x84 0x35",
+            "[09:30:05][V][modbus:222]: Modbus write: 01.03.00.C8.00.03.84.35 (8)",
+            "[09:30:05][D][uart_debug:114]: >>> 01:03:00:C8:00:03:84:35",
+            "Raw Request >>> {0x01, 0x03, 0x00, 0xC8, 0x00, 0x03, 0x84, 0x35}",
+            "x write to instrument (expecting 7 bytes back): 01 03 00 C8 00 03 84 35 (8 bytes) in 31.4 ms. Wait 50.0 ms.",
+            "Modbus.IO - TX: 1, 3, 0, 200, 0, 3, 132, 53",
+            "DEBUG:modbus_tk:-> 01-03-00-c8-00-03-84-35",
+            "[01][03][00][C8][00][03][84][35]",
+            "    01 03 00 c8 00 03 84 35                           .......5",
+            "192.168.0.10:502 > 10.0.0.7:49152 len 8: 01 03 00 C8 00 03 84 35",
+            r"port.write(b'\x01\x03\x00\xc8\x00\x03\x845')",
+            r"tx \x01\x03\x00\xC8\x00\x03\x84\x35",
+            "I (12345) MB: 8: 01 03 00 C8 00 03 84 35",
+            "send 0x010300C800038435 to COM3",
+            "Tx=010300c800038435;",
+            "01h 03h 00h 0C8h 00h 03h 84h 35h",
+        ] {
+            assert_eq!(read(text).0, "01 03 00 C8 00 03 84 35", "{text}");
+        }
+    }
+
+    #[test]
+    fn who_speaks() {
+        let says = |text| read(text).1;
+        assert_eq!(says("TX: 01 03 00 C8 00"), Some(Sender::Logger));
+        assert_eq!(
+            says("read holding registers, Response: 01 03 02 00 00"),
+            Some(Sender::Says(Direction::Response))
+        );
+        assert_eq!(says("-> 01 03 00 C8 00"), Some(Sender::Logger));
+        assert_eq!(says("<01><03><02><00>"), Some(Sender::Other));
+        assert_eq!(says("01 03 00 C8"), None);
+    }
+
+    #[test]
+    fn times_and_ports_are_told() {
+        let mut scan = Scan::default();
+        scan.read(b"[02/03/2026 09:30:05] Written data (COM8)", 0, None);
+        assert_eq!((scan.runs.len(), scan.time.is_some(), scan.words), (0, true, 3));
+        assert_eq!(scan.port, Some(Span::new(36, 40)));
+    }
+}
