@@ -1,11 +1,13 @@
-//! Prints the telegrams of a text as JSON Lines: one object for each telegram, then a summary.
+//! Prints the telegrams of a text, a log or a capture as JSON Lines: one object for each telegram,
+//! then a summary.
 
 use std::fmt::Write as _;
 use std::io::{Read, Write as _};
 use std::process::ExitCode;
 
 use buslens::field::Direction;
-use buslens::tool::{Options, PROFILES, PROTOCOLS, Profile, Protocol, decode, json, settings};
+use buslens::tool::log::{Input, Reading};
+use buslens::tool::{Options, PROFILES, PROTOCOLS, Profile, Protocol, decode_file, json, settings};
 
 fn main() -> ExitCode {
     match run() {
@@ -25,6 +27,7 @@ fn run() -> Result<String, String> {
     let mut arguments = std::env::args().skip(1);
     let mut options = Options::default();
     let mut fields = false;
+    let mut reading = Reading::default();
     let mut file = None;
     while let Some(argument) = arguments.next() {
         let (name, mut value) = match argument.split_once('=') {
@@ -49,12 +52,16 @@ fn run() -> Result<String, String> {
                 let key = choice(&keys)?;
                 options.device = Profile::of(key);
             }
-            "--input" => _ = choice(&["auto", "text"])?,
+            "--input" => {
+                let key = choice(&Input::KEYS.map(|(key, _)| key))?;
+                reading.input = Input::KEYS.into_iter().find(|(word, _)| *word == key).unwrap_or_default().1;
+            }
             "--language" => _ = choice(&["en"])?,
             "--settings" => {
                 let path = value.or_else(|| arguments.next()).unwrap_or_default();
                 let text = input(Some(&path))?;
-                options.settings = settings::read(&text).map_err(|reason| format!("{path}: {reason}"))?;
+                options.settings = settings::read(&String::from_utf8_lossy(&text))
+                    .map_err(|reason| format!("{path}: {reason}"))?;
             }
             "--direction" => {
                 options.direction = match choice(&["auto", "request", "response"])? {
@@ -70,23 +77,22 @@ fn run() -> Result<String, String> {
             _ => return Err(format!("one file at a time: “{argument}” is one too many")),
         }
     }
-    json::lines(&decode(&input(file.as_deref())?, options), fields).map_err(|error| error.to_string())
+    let file = input(file.as_deref())?;
+    let report = decode_file(&file, &reading, options).map_err(|refusal| refusal.to_string())?;
+    json::lines(&report, fields).map_err(|error| error.to_string())
 }
 
-/// The text of the file, or of standard input. Bytes that are no UTF-8 are shown as �, and are
-/// then told as not hex in their place.
-fn input(file: Option<&str>) -> Result<String, String> {
-    let bytes = match file {
+/// The bytes of the file, or of standard input.
+fn input(file: Option<&str>) -> Result<Vec<u8>, String> {
+    match file {
         None | Some("-") => {
             let mut bytes = Vec::new();
-            std::io::stdin()
-                .read_to_end(&mut bytes)
-                .map_err(|error| format!("standard input cannot be read: {error}"))?;
-            bytes
+            let read = std::io::stdin().read_to_end(&mut bytes);
+            read.map_err(|error| format!("standard input cannot be read: {error}"))?;
+            Ok(bytes)
         }
-        Some(path) => std::fs::read(path).map_err(|error| format!("{path} cannot be read: {error}"))?,
-    };
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
+        Some(path) => std::fs::read(path).map_err(|error| format!("{path} cannot be read: {error}")),
+    }
 }
 
 /// "a, b or c".
@@ -113,10 +119,10 @@ fn help() -> String {
     let list = |keys: Vec<&'static str>| keys.join("\n             ");
     format!(
         "\
-Prints the telegrams of a text as JSON Lines, and a summary at the end.
+Prints the telegrams of a text, a log or a capture as JSON Lines, and a summary at the end.
 
 decode [--protocol PROTOCOL] [--device DEVICE] [--direction auto|request|response]
-       [--settings FILE] [--input auto|text] [--language en] [--fields] [FILE]
+       [--settings FILE] [--input auto|text|binary|pcap] [--language en] [--fields] [FILE]
 
 PROTOCOL:    {}
 DEVICE:      {}

@@ -222,6 +222,43 @@ impl Profile {
         self.areas.iter().find(|area| (area.from..=area.last()).contains(&address))
     }
 
+    /// The addresses of what is called so, first and last: a part of a name or an identifier, or a
+    /// block with its number, such as `universal channel 6`.
+    pub fn addresses(&self, name: &str) -> Vec<(u16, u16)> {
+        let name = name.to_lowercase();
+        let (words, number) = match name.rsplit_once(' ') {
+            Some((words, number)) => (words, number.parse::<u64>().ok()),
+            None => (name.as_str(), None),
+        };
+        let parameters = self.parameters.iter().copied().flatten();
+        let called = |parameter: &&Parameter| {
+            parameter.id.eq_ignore_ascii_case(&name) || parameter.spec.label.to_lowercase().contains(&name)
+        };
+        let mut found: Vec<(u16, u16)> =
+            parameters.filter(called).map(|parameter| (parameter.address, parameter.address)).collect();
+        for area in self.areas {
+            let label = area.spec.label.to_lowercase();
+            let block = number.zip(area.first).and_then(|(number, first)| number.checked_sub(first));
+            if let Some(block) = block.filter(|block| *block < area.count.into() && label.contains(words)) {
+                // Fewer than there are blocks, so it fits.
+                let from = area.from + block as u16 * area.stride;
+                found.push((from, from + area.stride - 1));
+            } else if label.contains(&name) {
+                found.push((area.from, area.from + (area.stride * area.count).max(1) - 1));
+            }
+        }
+        found
+    }
+
+    /// Whether what is written to this address can change what others mean.
+    pub fn teaches(&self, address: u16) -> bool {
+        self.lesson(address).is_some()
+    }
+
+    fn lesson(&self, address: u16) -> Option<&'static Lesson> {
+        self.lessons.iter().find(|lesson| (lesson.from..lesson.from + lesson.count).contains(&address))
+    }
+
     /// Takes from a new value of `width` bytes how the device is set up from then on; says whether
     /// that changes it.
     pub fn learn(
@@ -232,8 +269,7 @@ impl Profile {
         width: usize,
         settings: &mut Settings,
     ) -> bool {
-        let inside = |lesson: &&Lesson| (lesson.from..lesson.from + lesson.count).contains(&address);
-        let Some(lesson) = self.lessons.iter().find(inside) else { return false };
+        let Some(lesson) = self.lesson(address) else { return false };
         if self.area(address).and_then(|area| area.length).is_some_and(|length| width < length) {
             return false;
         }

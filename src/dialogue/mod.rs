@@ -5,6 +5,7 @@ mod guess;
 mod hypothesis;
 mod pair;
 mod protocol;
+pub mod traffic;
 mod turns;
 
 pub use guess::{Certainty, Guess, direction};

@@ -9,6 +9,7 @@ pub mod modbus_serial;
 pub mod modbus_tcp;
 mod profibus_bare;
 pub mod profibus_fdl;
+pub mod split;
 
 use crate::field::{Direction, Message, Spec};
 use crate::modbus::{Dialect, Pdu, STANDARD, Server};

@@ -47,7 +47,7 @@ pub fn decode(text: &str, mut options: Options) -> Report {
         style: reading.style,
         line_count: text.lines().count(),
         options,
-        learned: Vec::new(),
+        ..Report::default()
     };
     let (mut lines, empty): (Vec<Line>, Vec<Line>) = reading
         .lines
@@ -95,6 +95,8 @@ pub struct Report {
     pub(super) options: Options,
     /// What telegrams said of how devices are set up, in their order.
     learned: Vec<Known>,
+    /// The numbers of a whole log, where the telegrams are of one.
+    pub(super) counted: Option<Summary>,
 }
 
 /// A telegram as far as it was looked at without reading its fields.
@@ -114,6 +116,10 @@ pub struct Telegram {
     pub answered_by: Option<usize>,
     /// What it is for a job of the parameter channel.
     pub step: Option<Step>,
+    /// When it was sent, as its log says.
+    pub time: Option<String>,
+    /// Microseconds from the request to the response.
+    pub latency: Option<u32>,
 }
 
 /// A report in numbers.
@@ -133,19 +139,47 @@ pub struct Summary {
     pub unpaired: usize,
     pub lines: usize,
     pub lines_not_understood: usize,
+    /// Of a log: bytes that are no telegram.
+    pub bytes_discarded: usize,
+    /// The stable word of a log's layout, or of how the bytes are written.
+    pub layout: Option<&'static str>,
 }
 
 impl Report {
+    /// Telegrams that were found and met with each other already.
+    pub(super) fn of(telegrams: Vec<Telegram>, options: Options) -> Self {
+        let mut report = Self { telegrams, options, ..Self::default() };
+        report.follow();
+        report
+    }
+
+    /// Leaves out the first `count` telegrams, but not what they said of how devices are set up.
+    pub(super) fn forget(&mut self, count: usize) {
+        self.telegrams.drain(..count);
+        for telegram in &mut self.telegrams {
+            for partner in [&mut telegram.answers, &mut telegram.answered_by] {
+                *partner = partner.and_then(|index| index.checked_sub(count));
+            }
+        }
+        for known in &mut self.learned {
+            known.from = known.from.saturating_sub(count);
+        }
+    }
+
     /// All lines with bytes or remarks: those of telegrams, then those without bytes.
     pub fn lines(&self) -> impl Iterator<Item = &Line> {
         self.telegrams.iter().map(|telegram| &telegram.line).chain(&self.not_understood)
     }
 
     pub fn summary(&self) -> Summary {
+        if let Some(counted) = self.counted {
+            return counted;
+        }
         let mut summary = Summary {
             telegrams: self.telegrams.len(),
             lines: self.line_count,
             lines_not_understood: self.not_understood.len(),
+            layout: self.style.map(Style::name),
             ..Summary::default()
         };
         for telegram in &self.telegrams {
@@ -243,6 +277,8 @@ impl Report {
             answers,
             answered_by: None,
             step: None,
+            time: None,
+            latency: None,
         });
     }
 

@@ -13,8 +13,15 @@ pub struct Row {
     /// Running number from 1.
     pub n: usize,
     /// First line of the text, from 1.
-    pub line: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub line: Option<usize>,
+    /// Where it begins in a stream that has no lines.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub offset: Option<usize>,
     pub length: usize,
+    /// When it was sent, as its log says.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time: Option<String>,
     pub protocol: &'static str,
     /// `request`, `response` or `unknown`.
     pub direction: &'static str,
@@ -44,6 +51,9 @@ pub struct Row {
     /// The number of the request that this answers, or of its response.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pair: Option<usize>,
+    /// From the request to the response.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub latency_ms: Option<f64>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub problems: Vec<Problem>,
     /// What may have happened where the check failed, best first.
@@ -210,7 +220,10 @@ fn row(index: usize, telegram: &Telegram, detail: Detail, fields: bool) -> Row {
     });
     Row {
         n: index + 1,
-        line: line.number,
+        line: (line.number > 0).then_some(line.number),
+        offset: (line.number == 0).then_some(line.span.from),
+        time: telegram.time.clone(),
+        latency_ms: telegram.latency.map(|micros| f64::from(micros) / 1000.0),
         length: line.bytes.len(),
         protocol: telegram.choice.protocol.key,
         direction: telegram.guess.told().map_or("unknown", Direction::key),
@@ -324,9 +337,8 @@ fn last(report: &Report) -> Last {
             unpaired: summary.unpaired,
             lines: summary.lines,
             lines_not_understood: summary.lines_not_understood,
-            // Every byte of a line belongs to its telegram.
-            bytes_discarded: 0,
-            layout: report.style.map(|style| style.name()),
+            bytes_discarded: summary.bytes_discarded,
+            layout: summary.layout,
         },
     }
 }

@@ -14,6 +14,7 @@ mod explain;
 #[cfg(feature = "json")]
 pub mod json;
 pub mod link;
+pub mod log;
 mod offers;
 mod replies;
 pub mod settings;
@@ -32,6 +33,7 @@ pub use detail::Detail;
 pub use editor::Editor;
 pub use entries::{Change, Entries};
 pub use explain::Explanation;
+pub use log::decode_file;
 pub use offers::{Offer, offers};
 pub use replies::{Reply, replies};
 pub use views::{Kind, View, guess, views};

@@ -1,0 +1,630 @@
+use std::collections::HashMap;
+
+use super::conversation;
+use super::entry::{Entry, Hint, NO_TIME, NOBODY, Role};
+use crate::field::{Direction, Span};
+use crate::frame::split::{Begins, Place, Splitter, Waiting, can_split};
+use crate::frame::{
+    PROTOCOLS, Protocol, Settings, Verdict, modbus_ascii, modbus_rtu, modbus_tcp, profibus_fdl,
+};
+use crate::modbus::EXCEPTION;
+use crate::walk::crc_residue;
+
+/// Bytes of a log that stand together.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Chunk<'a> {
+    pub bytes: &'a [u8],
+    /// Microseconds.
+    pub time: Option<i64>,
+    pub hint: Hint,
+    /// Which line, connection or port.
+    pub port: u16,
+    /// It goes on where the chunk before it of the same port (and, with `both_ways`, of the same
+    /// hint) ended.
+    pub joins: bool,
+    /// Each direction of the port is a stream of its own, as over TCP.
+    pub both_ways: bool,
+    /// See [`Entry::line`] and [`Entry::offset`].
+    pub line: u32,
+    pub offset: u32,
+    /// It is written as Modbus ASCII is.
+    pub colon: bool,
+}
+
+/// The telegrams of a log.
+#[derive(Debug)]
+pub struct Traffic {
+    splitter: Splitter,
+    /// What most telegrams are.
+    protocol: &'static Protocol,
+    data: Vec<u8>,
+    entries: Vec<Entry>,
+    lanes: Vec<Lane>,
+    lane_of: HashMap<(u16, u8), usize>,
+    /// The lane of the last chunk.
+    latest: usize,
+    /// The request that waits, for each port.
+    waiting: Vec<Option<Waiting>>,
+    /// Units with their functions that had a right telegram: a bit for each.
+    seen: Vec<u64>,
+    /// The time of the last chunk, to notice midnight.
+    clock: i64,
+    days: i64,
+    /// How many more entries fit.
+    room: usize,
+}
+
+/// Bytes that wait for the rest of their telegram.
+#[derive(Debug, Default)]
+struct Lane {
+    buffer: Vec<u8>,
+    /// Which chunks the bytes came in.
+    rows: Vec<Row>,
+    /// Telegrams follow each other without anything that parts them.
+    streaming: bool,
+    /// The last telegram ended just before the buffer.
+    in_step: bool,
+    /// In so many bytes at the beginning no telegram begins.
+    barren: usize,
+    /// How many bytes at the beginning are a chunk that was no whole telegram.
+    held: usize,
+}
+
+/// A chunk in a lane's buffer.
+#[derive(Clone, Copy, Debug)]
+struct Row {
+    /// Its first byte in the buffer; below 0 where that is gone.
+    from: isize,
+    time: i64,
+    hint: Hint,
+    port: u16,
+    line: u32,
+    offset: u32,
+    colon: bool,
+}
+
+/// More entries than this would not fit into the memory of a page.
+const MOST_ENTRIES: usize = 24_000_000;
+
+/// A piece longer than this is a stream.
+const LONG: usize = 1024;
+
+/// Where chunks of a telegram lie further apart, they are none.
+const PAUSE: i64 = 1_000_000;
+
+impl Traffic {
+    /// For telegrams that are mostly of `protocol`.
+    pub fn new(protocol: &'static Protocol, settings: &Settings) -> Self {
+        Self {
+            splitter: Splitter::new(settings.dialect),
+            protocol,
+            data: Vec::new(),
+            entries: Vec::new(),
+            lanes: Vec::new(),
+            lane_of: HashMap::new(),
+            latest: 0,
+            waiting: Vec::new(),
+            seen: vec![0; 256 * 2],
+            clock: NO_TIME,
+            days: 0,
+            room: MOST_ENTRIES,
+        }
+    }
+
+    /// Takes the next bytes; `false` if the log has more telegrams than can be kept.
+    pub fn take(&mut self, chunk: Chunk<'_>) -> bool {
+        let time = chunk.time.map_or(NO_TIME, |time| self.continuous(time));
+        let way = match (chunk.both_ways, chunk.hint) {
+            (true, Hint::Says(Direction::Response)) => 1,
+            _ => 0,
+        };
+        let index = self.lane(chunk.port, way);
+        if index != self.latest && !chunk.both_ways {
+            self.close(self.latest);
+        }
+        self.latest = index;
+        let stays = chunk.joins && (!self.lanes[index].rows.is_empty() || self.lanes[index].streaming);
+        if !stays {
+            self.end_chunk(index, &chunk, time);
+        }
+        let lane = &mut self.lanes[index];
+        lane.streaming |= chunk.joins && chunk.both_ways;
+        let row = Row {
+            from: lane.buffer.len() as isize,
+            time,
+            hint: chunk.hint,
+            port: chunk.port,
+            line: chunk.line,
+            offset: chunk.offset,
+            colon: chunk.colon,
+        };
+        if lane.streaming && lane.buffer.is_empty() {
+            // The usual way of a stream: nothing of it is copied but what is left over.
+            lane.rows.clear();
+            lane.rows.push(row);
+            let used = self.split(index, chunk.bytes, 0, false);
+            let lane = &mut self.lanes[index];
+            lane.buffer.extend_from_slice(&chunk.bytes[used..]);
+            lane.forget(used);
+            return self.room > 0;
+        }
+        lane.rows.push(row);
+        lane.buffer.extend_from_slice(chunk.bytes);
+        if lane.streaming || (lane.buffer.len() > LONG && can_split(self.protocol)) {
+            lane.streaming = true;
+            self.drain_buffer(index, false);
+        }
+        self.room > 0
+    }
+
+    /// A stream of bytes begins, with nothing to part its telegrams.
+    pub fn stream(&mut self) {
+        let index = self.lane(0, 0);
+        self.lanes[index].streaming = true;
+    }
+
+    /// The log ends: what is left is read, and the telegrams are met with each other.
+    pub fn finish(&mut self) {
+        for index in 0..self.lanes.len() {
+            self.close(index);
+        }
+        conversation::meet(&mut self.entries, &self.data);
+    }
+
+    pub fn entries(&self) -> &[Entry] {
+        &self.entries
+    }
+
+    /// The bytes of an entry.
+    pub fn bytes(&self, entry: &Entry) -> &[u8] {
+        let from = entry.at as usize;
+        Span::new(from, from + usize::from(entry.length)).of(&self.data)
+    }
+
+    /// How many bytes of memory it takes.
+    pub fn memory(&self) -> usize {
+        self.data.capacity() + self.entries.capacity() * size_of::<Entry>()
+    }
+
+    fn lane(&mut self, port: u16, way: u8) -> usize {
+        if self.lanes.get(self.latest).is_some() && self.lane_of.get(&(port, way)) == Some(&self.latest) {
+            return self.latest;
+        }
+        let fresh = self.lanes.len();
+        let index = *self.lane_of.entry((port, way)).or_insert(fresh);
+        if index == fresh {
+            self.lanes.push(Lane { in_step: true, ..Lane::default() });
+        }
+        if self.waiting.len() <= usize::from(port) {
+            self.waiting.resize(usize::from(port) + 1, None);
+        }
+        index
+    }
+
+    /// A time of day goes on behind midnight.
+    fn continuous(&mut self, time: i64) -> i64 {
+        const DAY: i64 = 86_400_000_000;
+        let only_of_day = (0..DAY).contains(&time);
+        if only_of_day && self.clock != NO_TIME && self.clock - (time + self.days) > DAY / 2 {
+            self.days += DAY;
+        }
+        self.clock = if only_of_day { time + self.days } else { time };
+        self.clock
+    }
+
+    /// A chunk follows that does not join: what is there is a piece by itself, unless it is the
+    /// beginning of a telegram that may go on.
+    fn end_chunk(&mut self, index: usize, next: &Chunk<'_>, time: i64) {
+        let lane = &self.lanes[index];
+        if lane.streaming || lane.buffer.is_empty() {
+            return self.close(index);
+        }
+        self.read_piece(index, true);
+        let lane = &self.lanes[index];
+        if let Some(row) = lane.rows.last().filter(|_| lane.held > 0) {
+            let apart = time != NO_TIME && row.time != NO_TIME && time - row.time > PAUSE;
+            if apart || row.hint != next.hint || next.colon {
+                self.close(index);
+            }
+        }
+    }
+
+    /// Reads all that is left of a lane.
+    fn close(&mut self, index: usize) {
+        let Some(lane) = self.lanes.get_mut(index) else { return };
+        if lane.buffer.is_empty() {
+            lane.rows.clear();
+        } else if lane.streaming {
+            self.drain_buffer(index, true);
+        } else {
+            self.read_piece(index, false);
+        }
+    }
+
+    /// Reads a piece that is by itself. With `may_go_on`, what could be the beginning of a longer
+    /// telegram is held back.
+    fn read_piece(&mut self, index: usize, may_go_on: bool) {
+        let buffer = std::mem::take(&mut self.lanes[index].buffer);
+        let held = std::mem::take(&mut self.lanes[index].held);
+        let mut from = 0;
+        if held > 0 && !self.whole(index, &buffer, 0) {
+            let rest = &buffer[held..];
+            let longer = may_go_on && self.is_beginning(&buffer) && !self.is_right(rest);
+            if longer {
+                (self.lanes[index].held, self.lanes[index].buffer) = (buffer.len(), buffer);
+                return;
+            }
+            self.broken(index, &buffer[..held], 0);
+            from = held;
+        } else if held > 0 {
+            from = buffer.len();
+        }
+        let piece = &buffer[from..];
+        if !piece.is_empty() && !self.whole(index, piece, from) && !self.inside(index, piece, from) {
+            if may_go_on && self.is_beginning(piece) {
+                let lane = &mut self.lanes[index];
+                lane.forget(from);
+                lane.held = piece.len();
+                lane.buffer = piece.to_vec();
+                return;
+            }
+            self.broken(index, piece, from);
+        }
+        let lane = &mut self.lanes[index];
+        lane.buffer = buffer;
+        lane.buffer.clear();
+        lane.rows.clear();
+    }
+
+    /// Whether an RTU telegram that begins so is longer.
+    fn is_beginning(&self, bytes: &[u8]) -> bool {
+        std::ptr::eq(self.protocol, &raw const modbus_rtu::PROTOCOL)
+            && bytes.len() < modbus_rtu::RTU.longest()
+            && self.splitter.rtu_lengths(bytes).into_iter().flatten().any(|length| length > bytes.len())
+    }
+
+    fn is_right(&self, bytes: &[u8]) -> bool {
+        bytes.len() >= modbus_rtu::RTU.shortest() && crc_residue(bytes) == 0
+    }
+
+    /// Takes a piece that is one right telegram.
+    fn whole(&mut self, index: usize, piece: &[u8], from: usize) -> bool {
+        let rtu = |bytes: &[u8]| {
+            (modbus_rtu::RTU.shortest()..=modbus_rtu::RTU.longest()).contains(&bytes.len())
+                && crc_residue(bytes) == 0
+        };
+        let row = self.lanes[index].row(from);
+        if row.colon && !std::ptr::eq(self.protocol, &raw const profibus_fdl::PROTOCOL) {
+            let verdict = modbus_ascii::ASCII.verdict(piece);
+            self.add(index, piece, from, &modbus_ascii::PROTOCOL, verdict);
+            return true;
+        }
+        if let [b':', ..] = piece
+            && let Some(bytes) = modbus_ascii::from_characters(piece)
+        {
+            let verdict = modbus_ascii::ASCII.verdict(&bytes);
+            self.add(index, &bytes, from, &modbus_ascii::PROTOCOL, verdict);
+            return true;
+        }
+        let main = self.protocol;
+        if !can_split(main) && !std::ptr::eq(main, &raw const modbus_ascii::PROTOCOL) {
+            let mut at = 0;
+            while at < piece.len() {
+                let length = (main.first)(&piece[at..]).max(1);
+                let bytes = &piece[at..at + length];
+                self.add(index, bytes, from + at, main, (main.verdict)(bytes));
+                at += length;
+            }
+            return true;
+        }
+        // A frame whose PDU has no length that its function has may hold a shorter one.
+        if rtu(piece)
+            && (self.splitter.sides(&piece[1..piece.len() - 2]) != [false; 2]
+                || !self.splitter.knows(piece[1]))
+        {
+            self.add(index, piece, from, &modbus_rtu::PROTOCOL, Verdict::Right);
+            return true;
+        }
+        let place = Place { bytes: piece, last: true, in_step: true, waiting: None };
+        let strict = Place { in_step: std::ptr::eq(main, &raw const modbus_tcp::PROTOCOL), ..place };
+        if self.splitter.begins(&modbus_tcp::PROTOCOL, strict) == Begins::Telegram(piece.len()) {
+            self.add(index, piece, from, &modbus_tcp::PROTOCOL, Verdict::NoCheck);
+            return true;
+        }
+        let fdl = std::ptr::eq(main, &raw const profibus_fdl::PROTOCOL);
+        if self.splitter.begins(&profibus_fdl::PROTOCOL, place) == Begins::Telegram(piece.len())
+            && (fdl || piece.len() > 3)
+        {
+            let checked = profibus_fdl::Fdl::check_matches(piece);
+            let verdict = if checked { Verdict::Right } else { Verdict::NoCheck };
+            self.add(index, piece, from, &profibus_fdl::PROTOCOL, verdict);
+            return true;
+        }
+        if std::ptr::eq(main, &raw const modbus_ascii::PROTOCOL) {
+            self.add(index, piece, from, main, (main.verdict)(piece));
+            return true;
+        }
+        rtu(piece) && {
+            // Unless there is one inside, the check counts more than the length.
+            let inner = self.splitter.rtu_lengths(piece).into_iter().flatten();
+            let mut inner = inner.filter(|length| *length < piece.len());
+            let none = !inner.any(|length| rtu(&piece[..length]));
+            if none {
+                self.add(index, piece, from, &modbus_rtu::PROTOCOL, Verdict::Right);
+            }
+            none
+        }
+    }
+
+    /// Takes the telegrams inside a piece, if they are most of it.
+    fn inside(&mut self, index: usize, piece: &[u8], from: usize) -> bool {
+        let main = self.protocol;
+        if !can_split(main) {
+            return false;
+        }
+        let mut right = 0;
+        let mut at = 0;
+        let mut in_step = true;
+        while at < piece.len() {
+            let place = Place { bytes: &piece[at..], last: true, in_step, waiting: None };
+            match self.splitter.begins(main, place) {
+                Begins::Telegram(length) => {
+                    (right, at, in_step) = (right + length, at + length, true);
+                }
+                _ => (at, in_step) = (at + 1, false),
+            }
+        }
+        if right * 2 <= piece.len() {
+            return false;
+        }
+        (self.lanes[index].in_step, self.lanes[index].barren) = (true, 0);
+        self.split(index, piece, from, true);
+        true
+    }
+
+    /// Takes a piece as one telegram with something wrong.
+    fn broken(&mut self, index: usize, piece: &[u8], from: usize) {
+        const LONGEST: usize = 300;
+        if piece.len() > LONGEST {
+            return self.discard(index, piece, from);
+        }
+        let main = self.protocol;
+        let verdict = match (main.verdict)(piece) {
+            Verdict::Right => Verdict::NoCheck,
+            verdict => verdict,
+        };
+        self.add(index, piece, from, main, verdict);
+    }
+
+    /// Takes the telegrams out of what waits in a lane.
+    fn drain_buffer(&mut self, index: usize, last: bool) {
+        let buffer = std::mem::take(&mut self.lanes[index].buffer);
+        let used = self.split(index, &buffer, 0, last);
+        let lane = &mut self.lanes[index];
+        lane.buffer = buffer;
+        lane.buffer.drain(..used);
+        lane.forget(used);
+        if last {
+            (lane.in_step, lane.barren) = (true, 0);
+            lane.rows.clear();
+        }
+    }
+
+    /// Takes the telegrams out of bytes that begin at `from` in the lane; returns how many are done
+    /// with.
+    fn split(&mut self, index: usize, bytes: &[u8], from: usize, last: bool) -> usize {
+        /// So much that no telegram begins in is given up at once.
+        const HOPELESS: usize = 1 << 14;
+        let main = self.protocol;
+        let port = usize::from(self.lanes[index].row(from).port);
+        let mut in_step = self.lanes[index].in_step;
+        // What lies before `at` and is no telegram begins at `garbage`.
+        let (mut garbage, mut at) = (0, std::mem::take(&mut self.lanes[index].barren));
+        while at < bytes.len() {
+            let waiting = self.waiting[port];
+            let place = Place { bytes: &bytes[at..], last, in_step, waiting };
+            match self.splitter.begins(main, place) {
+                Begins::Telegram(length) => {
+                    if garbage < at {
+                        self.unframed(index, &bytes[garbage..at], from + garbage);
+                    }
+                    let telegram = &bytes[at..at + length];
+                    let verdict = if std::ptr::eq(main, &raw const modbus_rtu::PROTOCOL) {
+                        Verdict::Right
+                    } else {
+                        (main.verdict)(telegram)
+                    };
+                    self.add(index, telegram, from + at, main, verdict);
+                    at += length;
+                    (garbage, in_step) = (at, true);
+                }
+                Begins::More => break,
+                Begins::Nothing => {
+                    (at, in_step) = (at + 1, false);
+                    if at - garbage >= HOPELESS {
+                        self.discard(index, &bytes[garbage..at], from + garbage);
+                        garbage = at;
+                    }
+                }
+            }
+        }
+        if last && garbage < at {
+            self.unframed(index, &bytes[garbage..at], from + garbage);
+            garbage = at;
+        }
+        let lane = &mut self.lanes[index];
+        (lane.in_step, lane.barren) = (in_step, at - garbage);
+        garbage
+    }
+
+    /// Bytes of a stream without a right telegram: a damaged one, if they begin or end like one.
+    fn unframed(&mut self, index: usize, bytes: &[u8], from: usize) {
+        let rtu = std::ptr::eq(self.protocol, &raw const modbus_rtu::PROTOCOL);
+        let long = (modbus_rtu::RTU.shortest()..=modbus_rtu::RTU.longest()).contains(&bytes.len());
+        let port = usize::from(self.lanes[index].row(from).port);
+        let like = rtu && long && {
+            let (unit, function) = (bytes[0], bytes[1] & !EXCEPTION);
+            let awaited = self.waiting[port].is_some_and(|it| (it.unit, it.function) == (unit, function));
+            let seen =
+                self.seen[usize::from(unit) * 2 + usize::from(function >> 6)] >> (function & 63) & 1 == 1;
+            awaited || seen || self.splitter.rtu_lengths(bytes).contains(&Some(bytes.len()))
+        };
+        match like {
+            true => self.add(index, bytes, from, self.protocol, Verdict::Wrong),
+            false => self.discard(index, bytes, from),
+        }
+    }
+
+    fn discard(&mut self, index: usize, bytes: &[u8], from: usize) {
+        for (part, piece) in bytes.chunks(usize::from(u16::MAX)).enumerate() {
+            let from = from + part * usize::from(u16::MAX);
+            self.push(index, piece, from, self.protocol, Verdict::NoCheck, Role::Discarded);
+        }
+    }
+
+    fn add(
+        &mut self,
+        index: usize,
+        bytes: &[u8],
+        from: usize,
+        protocol: &'static Protocol,
+        verdict: Verdict,
+    ) {
+        self.push(index, bytes, from, protocol, verdict, Role::Plain);
+    }
+
+    #[inline]
+    fn push(
+        &mut self,
+        index: usize,
+        bytes: &[u8],
+        from: usize,
+        protocol: &'static Protocol,
+        verdict: Verdict,
+        role: Role,
+    ) {
+        if self.room == 0 {
+            return;
+        }
+        self.room -= 1;
+        let row = self.lanes[index].row(from);
+        let at = self.data.len();
+        self.data.extend_from_slice(bytes);
+        let mut entry = Entry {
+            time: row.time,
+            at: at as u32,
+            offset: row.offset,
+            line: row.line,
+            skip: (from as isize - row.from).clamp(0, isize::from(i16::MAX)) as u16,
+            length: bytes.len() as u16,
+            partner: NOBODY,
+            port: row.port,
+            protocol: number(protocol),
+            unit: None,
+            function: 0,
+            verdict,
+            direction: Direction::Request,
+            role,
+            sides: [false; 2],
+            hint: row.hint,
+        };
+        if row.line == 0 {
+            // Of a stream, the place itself is known.
+            entry.offset = (i64::from(row.offset) + (from as isize - row.from) as i64) as u32;
+            entry.skip = 0;
+        }
+        if role == Role::Plain {
+            self.describe(&mut entry, bytes, protocol);
+        }
+        self.entries.push(entry);
+    }
+
+    /// Unit, function, and what its length says; and whether it is now waited for a response.
+    #[inline]
+    fn describe(&mut self, entry: &mut Entry, bytes: &[u8], protocol: &'static Protocol) {
+        let serial = std::ptr::eq(protocol, &raw const modbus_rtu::PROTOCOL);
+        let pdu = if serial {
+            entry.unit = bytes.first().copied();
+            bytes.get(1..bytes.len().saturating_sub(2).max(1)).unwrap_or_default()
+        } else {
+            entry.unit = (protocol.unit)(bytes);
+            match protocol.speaker {
+                crate::frame::Speaker::Pdu(inside) => inside(bytes).0,
+                crate::frame::Speaker::Frame(told) => {
+                    match told(bytes) {
+                        Some(Direction::Request) => entry.sides = [true, false],
+                        Some(Direction::Response) => entry.sides = [false, true],
+                        None => {}
+                    }
+                    return;
+                }
+                crate::frame::Speaker::Always(direction) => {
+                    entry.sides = [direction == Direction::Request, direction == Direction::Response];
+                    return;
+                }
+                crate::frame::Speaker::Turns(leaning) => {
+                    let leaning = leaning(bytes);
+                    entry.sides = [leaning <= 0, leaning >= 0];
+                    return;
+                }
+            }
+        };
+        let Some(function) = pdu.first().copied() else { return };
+        entry.function = function;
+        entry.sides = self.splitter.sides(pdu);
+        if entry.verdict == Verdict::Wrong {
+            return;
+        }
+        let (unit, plain) = (entry.unit.unwrap_or_default(), function & !EXCEPTION);
+        self.seen[usize::from(unit) * 2 + usize::from(plain >> 6)] |= 1 << (plain & 63);
+        let waiting = &mut self.waiting[usize::from(entry.port)];
+        let awaited = waiting.is_some_and(|it| (it.unit, it.function) == (unit, plain));
+        *waiting = match entry.sides {
+            [true, answers] if !(answers && awaited) => Some(Waiting {
+                unit,
+                function: plain,
+                length: self
+                    .splitter
+                    .answer_length(pdu)
+                    .map(|length| (length + modbus_rtu::RTU.around()) as u16),
+            }),
+            _ => None,
+        };
+    }
+}
+
+impl Lane {
+    /// The chunk that the byte at `at` of the buffer came in.
+    #[inline]
+    fn row(&self, at: usize) -> Row {
+        match self.rows.as_slice() {
+            [row] => *row,
+            rows => {
+                let next = rows.partition_point(|row| row.from <= at as isize);
+                rows.get(next.saturating_sub(1)).copied().unwrap_or(Row {
+                    from: 0,
+                    time: NO_TIME,
+                    hint: Hint::None,
+                    port: 0,
+                    line: 0,
+                    offset: 0,
+                    colon: false,
+                })
+            }
+        }
+    }
+
+    /// The first `count` bytes are gone.
+    fn forget(&mut self, count: usize) {
+        for row in &mut self.rows {
+            row.from -= count as isize;
+        }
+        let gone = self.rows.partition_point(|row| row.from <= 0).saturating_sub(1);
+        self.rows.drain(..gone);
+    }
+}
+
+fn number(protocol: &'static Protocol) -> u8 {
+    // The usual one is the first.
+    PROTOCOLS.iter().position(|known| std::ptr::eq(*known, protocol)).unwrap_or_default() as u8
+}

@@ -1,0 +1,179 @@
+//! Requests meet their responses.
+
+use super::entry::{Entry, Hint, NOBODY, Role};
+use crate::field::{Direction, Span};
+use crate::frame::{ANY_EXCHANGE, Verdict};
+
+/// What is true for a whole log.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Habits {
+    /// The writer of the log is the client.
+    logger_asks: bool,
+    /// Each request comes back to its sender.
+    echo: bool,
+    /// The log has each telegram twice.
+    twice: bool,
+}
+
+/// Tells who speaks in each telegram, and which response answers which request.
+pub(super) fn meet(entries: &mut [Entry], data: &[u8]) {
+    let habits = Habits::of(entries, data);
+    let mut ports: Vec<Port> = Vec::new();
+    for index in 0..entries.len() {
+        if entries[index].role == Role::Discarded {
+            continue;
+        }
+        let port = usize::from(entries[index].port);
+        if ports.len() <= port {
+            ports.resize_with(port + 1, Port::default);
+        }
+        ports[port].next(entries, data, index, habits);
+    }
+}
+
+fn bytes<'a>(entry: &Entry, data: &'a [u8]) -> &'a [u8] {
+    let from = entry.at as usize;
+    Span::new(from, from + usize::from(entry.length)).of(data)
+}
+
+impl Habits {
+    fn of(entries: &[Entry], data: &[u8]) -> Self {
+        let (mut logger, mut requests, mut responses) = (0_i64, [0_usize; 2], [0_usize; 2]);
+        let mut previous: Option<&Entry> = None;
+        // A third copy is none of the second.
+        let mut doubled = false;
+        for entry in entries.iter().filter(|entry| entry.role != Role::Discarded) {
+            let side = match entry.sides {
+                [true, false] => 1,
+                [false, true] => -1,
+                _ => 0,
+            };
+            match entry.hint {
+                Hint::Logger => logger += side,
+                Hint::Other => logger -= side,
+                _ => {}
+            }
+            let same = previous.is_some_and(|it| {
+                it.port == entry.port && it.length == entry.length && bytes(it, data) == bytes(entry, data)
+            });
+            doubled = same && !doubled;
+            let counts = match side {
+                1 => Some(&mut requests),
+                -1 => Some(&mut responses),
+                _ => None,
+            };
+            if let Some([all, again]) = counts {
+                *all += usize::from(!doubled);
+                *again += usize::from(doubled);
+            }
+            previous = Some(entry);
+        }
+        let most = |[all, again]: [usize; 2]| again > 0 && again * 10 >= all * 6;
+        // Nobody answers twice: where the responses are there twice, it is the log.
+        let twice = most(responses) && responses[0] > 1;
+        Self { logger_asks: logger >= 0, echo: !twice && most(requests), twice }
+    }
+}
+
+/// What is open on a line or connection.
+#[derive(Debug, Default)]
+struct Port {
+    /// Requests without an answer so far, oldest first, with what their answers have in common with
+    /// them.
+    open: Vec<(usize, u64)>,
+    /// The telegram before.
+    previous: Option<usize>,
+    /// The last request came back already.
+    echoed: bool,
+}
+
+impl Port {
+    fn next(&mut self, entries: &mut [Entry], data: &[u8], index: usize, habits: Habits) {
+        /// On a serial line answers come at once, or late; older ones are not waited for.
+        const LATE: usize = 8;
+        let entry = entries[index];
+        let own = bytes(&entry, data);
+        let protocol = entry.protocol();
+        let same = self.previous.filter(|before| {
+            let before = &entries[*before];
+            before.length == entry.length && bytes(before, data) == own
+        });
+        if habits.twice
+            && same.is_some_and(|before| {
+                entries[before].role != Role::Copy && entries[before].hint == entry.hint
+            })
+        {
+            entries[index].role = Role::Copy;
+            entries[index].direction = entries[self.previous.unwrap_or(index)].direction;
+            self.previous = Some(index);
+            return;
+        }
+        let exchange = (protocol.exchange)(own);
+        let last = self.open.last().copied();
+        let awaited = match (exchange, last) {
+            (Some(ANY_EXCHANGE), Some(_)) => true,
+            (Some(own), Some((_, asked))) => own == asked,
+            _ => false,
+        };
+        let repeats = same.is_some() && same == last.map(|(request, _)| request);
+        let hinted = match entry.hint {
+            Hint::None => None,
+            Hint::Says(direction) => Some(direction),
+            Hint::Logger if habits.logger_asks => Some(Direction::Request),
+            Hint::Other if !habits.logger_asks => Some(Direction::Request),
+            Hint::Logger | Hint::Other => Some(Direction::Response),
+        };
+        let echoes = habits.echo && repeats && !self.echoed && (entry.sides[0] || entry.sides == [false; 2]);
+        let direction = match (entry.sides, hinted) {
+            _ if echoes => Direction::Request,
+            // Bytes count more than a word that may stand for something else.
+            ([true, false], _) if entry.verdict != Verdict::Wrong => Direction::Request,
+            ([false, true], _) if entry.verdict != Verdict::Wrong => Direction::Response,
+            (_, Some(hinted)) => hinted,
+            ([true, false], _) => Direction::Request,
+            ([false, true], _) => Direction::Response,
+            _ if awaited => Direction::Response,
+            _ => Direction::Request,
+        };
+        entries[index].direction = direction;
+        self.previous = Some(index);
+        if echoes {
+            entries[index].role = Role::Echo;
+            self.echoed = true;
+            return;
+        }
+        let most = if protocol.waiting > 1 { protocol.waiting } else { LATE };
+        match (direction, exchange) {
+            (Direction::Request, None) => entries[index].role = Role::Broadcast,
+            (Direction::Request, Some(exchange)) => {
+                self.echoed = false;
+                let before = last.filter(|(request, _)| bytes(&entries[*request], data) == own);
+                if before.is_some() {
+                    entries[index].role = Role::Retry;
+                }
+                // Who asks again does not wait for the first answer any more.
+                self.open.retain(|(_, open)| *open != exchange);
+                if self.open.len() >= most {
+                    self.open.remove(0);
+                }
+                self.open.push((index, exchange));
+            }
+            (Direction::Response, None) => entries[index].role = Role::Unasked,
+            (Direction::Response, Some(exchange)) => {
+                let place =
+                    self.open.iter().rposition(|(_, open)| exchange == ANY_EXCHANGE || *open == exchange);
+                match place {
+                    Some(place) => {
+                        let late = protocol.waiting == 1 && place + 1 < self.open.len();
+                        let (request, _) = self.open.remove(place);
+                        entries[index].role = if late { Role::Late } else { Role::Plain };
+                        entries[index].partner = request as u32;
+                        entries[request].partner = index as u32;
+                    }
+                    None => entries[index].role = Role::Unasked,
+                }
+            }
+        }
+        debug_assert!(entries[index].partner == NOBODY || entries[index].partner != index as u32);
+    }
+}

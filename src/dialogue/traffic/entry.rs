@@ -1,0 +1,139 @@
+use crate::field::Direction;
+use crate::frame::{PROTOCOLS, Protocol, Verdict};
+
+/// A telegram of a log, in as little room as possible: a log can have millions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Entry {
+    /// Microseconds, see [`time`](Self::time).
+    pub(super) time: i64,
+    /// Its first byte in [`Traffic::data`](super::Traffic::data).
+    pub(super) at: u32,
+    /// Where the line, or the piece of a stream, begins that its first byte is in.
+    pub offset: u32,
+    /// The number of that line, from 1; 0 where there are no lines.
+    pub line: u32,
+    /// How many bytes of other telegrams that line or piece has before it.
+    pub skip: u16,
+    pub length: u16,
+    pub(super) partner: u32,
+    /// Which line, connection or port, from 0.
+    pub port: u16,
+    /// Index in [`PROTOCOLS`].
+    pub(super) protocol: u8,
+    pub unit: Option<u8>,
+    /// As on the wire; 0 where the protocol has none.
+    pub function: u8,
+    pub verdict: Verdict,
+    pub direction: Direction,
+    pub role: Role,
+    /// It has the length of a request, and that of a response.
+    pub(super) sides: [bool; 2],
+    pub(super) hint: Hint,
+}
+
+/// What is special about a telegram in its conversation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Role {
+    /// A request or a response like others.
+    Plain,
+    /// A request that came back to its sender over the same pair of wires.
+    Echo,
+    /// A request that repeats one without an answer.
+    Retry,
+    /// The log has it twice.
+    Copy,
+    /// A request to all, or one that nobody answers.
+    Broadcast,
+    /// A response that came after other requests.
+    Late,
+    /// A response that nobody asked for.
+    Unasked,
+    /// Bytes that are no telegram.
+    Discarded,
+}
+
+impl Role {
+    pub const ALL: [Self; 8] = [
+        Self::Plain,
+        Self::Echo,
+        Self::Retry,
+        Self::Copy,
+        Self::Broadcast,
+        Self::Late,
+        Self::Unasked,
+        Self::Discarded,
+    ];
+
+    /// The stable word of exports.
+    pub const fn key(self) -> &'static str {
+        match self {
+            Self::Plain => "plain",
+            Self::Echo => "echo",
+            Self::Retry => "retry",
+            Self::Copy => "copy",
+            Self::Broadcast => "broadcast",
+            Self::Late => "late",
+            Self::Unasked => "unasked",
+            Self::Discarded => "discarded",
+        }
+    }
+}
+
+/// What the log says of who speaks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Hint {
+    #[default]
+    None,
+    Says(Direction),
+    /// The writer of the log sent it.
+    Logger,
+    /// The writer of the log received it.
+    Other,
+}
+
+/// No time is known.
+pub(super) const NO_TIME: i64 = i64::MIN;
+
+/// No telegram.
+pub(super) const NOBODY: u32 = u32::MAX;
+
+impl Entry {
+    /// Microseconds as the log has them: since 1970, midnight, or some start.
+    pub fn time(&self) -> Option<i64> {
+        (self.time != NO_TIME).then_some(self.time)
+    }
+
+    /// The index of the request that it answers, or of the response to it.
+    pub fn partner(&self) -> Option<usize> {
+        (self.partner != NOBODY).then_some(self.partner as usize)
+    }
+
+    pub fn protocol(&self) -> &'static Protocol {
+        PROTOCOLS[usize::from(self.protocol)]
+    }
+
+    /// Whether it is a telegram at all, and not one that the log has twice.
+    pub fn counts(&self) -> bool {
+        !matches!(self.role, Role::Discarded | Role::Copy)
+    }
+
+    /// Whether it is a request that somebody should answer.
+    pub fn asks(&self) -> bool {
+        self.direction == Direction::Request && matches!(self.role, Role::Plain | Role::Retry)
+    }
+
+    /// Whether it is a request that nobody answered.
+    pub fn unanswered(&self) -> bool {
+        self.asks() && self.partner == NOBODY
+    }
+
+    /// The function code without the bit of an exception.
+    pub fn plain_function(&self) -> u8 {
+        self.function & !crate::modbus::EXCEPTION
+    }
+
+    /// Whether the server refused.
+    pub fn refuses(&self) -> bool {
+        self.direction == Direction::Response && self.function & crate::modbus::EXCEPTION != 0
+    }
+}

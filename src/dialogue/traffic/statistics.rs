@@ -1,0 +1,170 @@
+//! A log in numbers.
+
+use std::collections::BTreeMap;
+
+use super::collect::Traffic;
+use super::entry::{Entry, Role};
+use crate::field::Direction;
+use crate::frame::Verdict;
+
+/// What happened in a log.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Statistics {
+    pub telegrams: usize,
+    pub requests: usize,
+    pub pairs: usize,
+    pub unanswered: usize,
+    pub retries: usize,
+    pub unasked: usize,
+    pub late: usize,
+    pub echoes: usize,
+    pub copies: usize,
+    pub broadcasts: usize,
+    pub exceptions: usize,
+    pub check_failed: usize,
+    /// Too short to have a check.
+    pub unchecked: usize,
+    pub bytes_discarded: usize,
+    /// The first and the last time.
+    pub times: Option<(i64, i64)>,
+    /// By port, unit and function, in that order.
+    pub dialogs: Vec<Dialog>,
+}
+
+/// What a unit was asked with one function, and what came of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Dialog {
+    pub port: u16,
+    pub unit: Option<u8>,
+    /// 0 where the protocol has none.
+    pub function: u8,
+    pub telegrams: usize,
+    pub requests: usize,
+    pub answered: usize,
+    pub unanswered: usize,
+    pub retries: usize,
+    pub exceptions: usize,
+    pub check_failed: usize,
+    pub unasked: usize,
+    /// Microseconds from request to response.
+    pub median: Option<u32>,
+    pub worst: Option<u32>,
+    /// When most requests were unanswered, if they come together.
+    pub silent: Option<Minutes>,
+}
+
+/// A stretch of time in which something happened, so many times.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Minutes {
+    pub from: i64,
+    pub to: i64,
+    pub count: usize,
+}
+
+#[derive(Default)]
+struct Gathered {
+    dialog: Dialog,
+    latencies: Vec<u32>,
+    silent: Vec<i64>,
+}
+
+/// Counts.
+pub fn statistics(traffic: &Traffic) -> Statistics {
+    let entries = traffic.entries();
+    let mut all = Statistics::default();
+    let mut dialogs: BTreeMap<(u16, Option<u8>, u8), Gathered> = BTreeMap::new();
+    for entry in entries {
+        if entry.role == Role::Discarded {
+            all.bytes_discarded += usize::from(entry.length);
+            continue;
+        }
+        if let Some(time) = entry.time() {
+            let (first, last) = all.times.unwrap_or((time, time));
+            all.times = Some((first.min(time), last.max(time)));
+        }
+        if entry.role == Role::Copy {
+            all.copies += 1;
+            continue;
+        }
+        all.telegrams += 1;
+        all.check_failed += usize::from(entry.verdict == Verdict::Wrong);
+        all.unchecked += usize::from(entry.verdict == Verdict::Unchecked);
+        all.requests += usize::from(entry.asks());
+        all.unanswered += usize::from(entry.unanswered());
+        all.exceptions += usize::from(entry.refuses());
+        all.pairs += usize::from(entry.direction == Direction::Response && entry.partner().is_some());
+        match entry.role {
+            Role::Retry => all.retries += 1,
+            Role::Unasked => all.unasked += 1,
+            Role::Late => all.late += 1,
+            Role::Echo => all.echoes += 1,
+            Role::Broadcast => all.broadcasts += 1,
+            Role::Plain | Role::Copy | Role::Discarded => {}
+        }
+        if entry.role != Role::Echo {
+            let key = (entry.port, entry.unit, entry.plain_function());
+            count(dialogs.entry(key).or_default(), entry, entries);
+        }
+    }
+    all.dialogs = dialogs
+        .into_iter()
+        .map(|((port, unit, function), gathered)| Dialog { port, unit, function, ..gathered.close() })
+        .collect();
+    all
+}
+
+fn count(gathered: &mut Gathered, entry: &Entry, entries: &[Entry]) {
+    let dialog = &mut gathered.dialog;
+    dialog.telegrams += 1;
+    dialog.requests += usize::from(entry.asks());
+    dialog.unanswered += usize::from(entry.unanswered());
+    dialog.retries += usize::from(entry.role == Role::Retry);
+    dialog.exceptions += usize::from(entry.refuses());
+    dialog.check_failed += usize::from(entry.verdict == Verdict::Wrong);
+    dialog.unasked += usize::from(entry.role == Role::Unasked);
+    if entry.unanswered() {
+        gathered.silent.extend(entry.time());
+    }
+    if entry.direction == Direction::Response
+        && let Some(request) = entry.partner()
+    {
+        dialog.answered += 1;
+        if let Some(latency) = latency(entry, &entries[request]) {
+            gathered.latencies.push(latency);
+        }
+    }
+}
+
+/// Microseconds between a response and its request.
+pub fn latency(response: &Entry, request: &Entry) -> Option<u32> {
+    let (answered, asked) = (response.time()?, request.time()?);
+    u32::try_from(answered - asked).ok()
+}
+
+impl Gathered {
+    fn close(mut self) -> Dialog {
+        let middle = self.latencies.len() / 2;
+        let median = (!self.latencies.is_empty()).then(|| *self.latencies.select_nth_unstable(middle).1);
+        let worst = self.latencies.iter().copied().max();
+        Dialog { median, worst, silent: densest(&mut self.silent), ..self.dialog }
+    }
+}
+
+/// The shortest stretch that holds two thirds of the times, where that is far shorter than all.
+fn densest(times: &mut [i64]) -> Option<Minutes> {
+    const ENOUGH: usize = 5;
+    times.sort_unstable();
+    let (first, last) = (*times.first()?, *times.last()?);
+    let count = (times.len() * 2).div_ceil(3).max(ENOUGH);
+    let (from, to) = times
+        .windows(count.min(times.len()))
+        .filter(|window| window.len() >= ENOUGH)
+        .map(|window| (window[0], window[window.len() - 1]))
+        .min_by_key(|(from, to)| to - from)?;
+    let dense = (to - from) * 3 <= last - first && last > first;
+    dense.then(|| Minutes {
+        from,
+        to,
+        count: times.iter().filter(|time| (from..=to).contains(*time)).count(),
+    })
+}

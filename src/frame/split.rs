@@ -1,0 +1,294 @@
+//! Finding telegrams in bytes that nothing parts.
+//!
+//! Where a telegram can begin, its length rule and its check have to agree. Both a request and a
+//! response of a function can: a CRC stays right when zeros follow, so that a telegram may begin with
+//! another one. The request that still waits decides then, and without one a request is expected.
+//!
+//! Looking at one place costs no more than the longest telegram has bytes, so that all of it takes
+//! linear time, and nothing is allocated.
+
+use super::modbus_serial::BROADCAST;
+use super::profibus_fdl::{Fdl, SC, SD4};
+use super::{Protocol, modbus_rtu, modbus_tcp, profibus_fdl};
+use crate::field::{Direction, Span};
+use crate::modbus::{Dialect, EXCEPTION, Length, Pdu};
+use crate::walk::crc_residue;
+
+/// What begins at a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Begins {
+    /// A telegram of so many bytes, with a right check.
+    Telegram(usize),
+    /// Perhaps a telegram, of which bytes are to come.
+    More,
+    Nothing,
+}
+
+/// The request that waits for its response.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Waiting {
+    pub unit: u8,
+    pub function: u8,
+    /// How many bytes the response must have, if the request tells it.
+    pub length: Option<u16>,
+}
+
+/// What each function's telegrams are long.
+#[derive(Debug)]
+pub struct Splitter {
+    /// Request and response, by function code; `None` for codes that are not known.
+    rules: Vec<Option<[Length; 2]>>,
+}
+
+/// What is known where a telegram may begin.
+#[derive(Clone, Copy, Debug)]
+pub struct Place<'a> {
+    /// What comes from there on.
+    pub bytes: &'a [u8],
+    /// Nothing comes behind `bytes`.
+    pub last: bool,
+    /// A telegram ends just before it, or a pause.
+    pub in_step: bool,
+    pub waiting: Option<Waiting>,
+}
+
+/// Whether the protocol's telegrams can be found in a stream.
+pub fn can_split(protocol: &Protocol) -> bool {
+    [&modbus_rtu::PROTOCOL, &modbus_tcp::PROTOCOL, &profibus_fdl::PROTOCOL]
+        .into_iter()
+        .any(|known| std::ptr::eq(known, protocol))
+}
+
+impl Splitter {
+    pub fn new(dialect: &'static Dialect) -> Self {
+        let rule = |function: u8| {
+            let [request, response] = [Direction::Request, Direction::Response]
+                .map(|direction| Pdu::kind(function, direction, dialect));
+            (request.function == function && response.function == function && function > 0)
+                .then_some([request.length, response.length])
+        };
+        Self { rules: (0..EXCEPTION).map(rule).collect() }
+    }
+
+    /// What of `protocol` begins at `place`.
+    pub fn begins(&self, protocol: &'static Protocol, place: Place<'_>) -> Begins {
+        if std::ptr::eq(protocol, &raw const modbus_rtu::PROTOCOL) {
+            self.rtu(place)
+        } else if std::ptr::eq(protocol, &raw const modbus_tcp::PROTOCOL) {
+            self.tcp(place)
+        } else if std::ptr::eq(protocol, &raw const profibus_fdl::PROTOCOL) {
+            fdl(place)
+        } else {
+            Begins::Nothing
+        }
+    }
+
+    /// Whether `function`, without the bit of an exception, is known.
+    pub fn knows(&self, function: u8) -> bool {
+        self.rule(function & !EXCEPTION).is_some()
+    }
+
+    /// Whether a PDU has the length of a request, and that of a response.
+    #[inline]
+    pub fn sides(&self, pdu: &[u8]) -> [bool; 2] {
+        match pdu.first() {
+            Some(function) if function & EXCEPTION != 0 => [false, pdu.len() == 2],
+            Some(function) => match self.rule(*function) {
+                Some(rules) => rules.map(|rule| rule.fits(pdu)),
+                None => [false, false],
+            },
+            None => [false, false],
+        }
+    }
+
+    /// How many bytes the PDU of the response to a request has, if that follows from it.
+    #[inline]
+    pub fn answer_length(&self, request: &[u8]) -> Option<usize> {
+        let [asked, answer] = self.rule(*request.first()?)?;
+        match (asked, answer) {
+            (_, Length::Fixed(length)) => Some(length),
+            // All functions that read so many items have their number here.
+            (Length::Fixed(5) | Length::Counted { at: 9, .. }, Length::Counted { at: 1, unit }) => {
+                let quantity = usize::from(u16::from_be_bytes([*request.get(3)?, *request.get(4)?]));
+                Some(2 + if unit == 1 { quantity.div_ceil(8) } else { quantity * unit })
+            }
+            _ => None,
+        }
+    }
+
+    /// How many bytes the RTU frame would have that begins with `bytes`: as request, as response.
+    pub fn rtu_lengths(&self, bytes: &[u8]) -> [Option<usize>; 2] {
+        let Some(function) = bytes.get(1) else { return [None, None] };
+        if function & EXCEPTION != 0 {
+            return [None, Some(2 + AROUND)];
+        }
+        let pdu = &bytes[1..];
+        self.rule(*function)
+            .map_or([None, None], |rules| rules.map(|rule| rule.of(pdu).map(|length| length + AROUND)))
+    }
+
+    #[inline]
+    fn rule(&self, function: u8) -> Option<[Length; 2]> {
+        self.rules.get(usize::from(function)).copied().flatten()
+    }
+
+    #[inline]
+    fn rtu(&self, place: Place<'_>) -> Begins {
+        /// Addresses above are reserved.
+        const HIGHEST_UNIT: u8 = 247;
+        let Place { bytes, last, waiting, .. } = place;
+        let more = if last { Begins::Nothing } else { Begins::More };
+        let [unit, function, ..] = *bytes else { return more };
+        if unit > HIGHEST_UNIT {
+            return Begins::Nothing;
+        }
+        let awaited = waiting.filter(|it| it.unit == unit && it.function == function & !EXCEPTION);
+        if function & EXCEPTION != 0 {
+            return match self.rule(function & !EXCEPTION) {
+                Some(_) if unit != BROADCAST || awaited.is_some() => {
+                    right(bytes, Some(2 + AROUND), None, more)
+                }
+                _ => Begins::Nothing,
+            };
+        }
+        let Some([request, response]) = self.rule(function) else { return Begins::Nothing };
+        let pdu = &bytes[1..];
+        let whole = |rule: Length| rule.of(pdu).map(|length| length + AROUND);
+        let (asks, answers) = (whole(request), whole(response).filter(|_| unit != BROADCAST));
+        if let (Some(awaited), Some(length)) = (awaited, answers) {
+            // No telegram is longer than the one that is awaited, and none has another length.
+            if awaited.length.is_none_or(|it| usize::from(it) == length) {
+                match right(bytes, Some(length), Some(response), more) {
+                    Begins::Nothing => {}
+                    begins => return begins,
+                }
+                return if asks == answers {
+                    Begins::Nothing
+                } else {
+                    right(bytes, asks, Some(request), more)
+                };
+            }
+        }
+        match right(bytes, asks, Some(request), more) {
+            // Where too little is known of the request's length, it may be a response all the same.
+            Begins::More => match right(bytes, answers, Some(response), more) {
+                Begins::Telegram(length) => Begins::Telegram(length),
+                _ => Begins::More,
+            },
+            Begins::Nothing if asks != answers => right(bytes, answers, Some(response), more),
+            begins => begins,
+        }
+    }
+
+    #[inline]
+    fn tcp(&self, place: Place<'_>) -> Begins {
+        let Place { bytes, last, .. } = place;
+        let more = if last { Begins::Nothing } else { Begins::More };
+        let zeros = bytes.iter().skip(2).take(2).all(|byte| *byte == 0);
+        let long = bytes.get(4).is_none_or(|high| *high <= 1);
+        if !zeros || !long {
+            return Begins::Nothing;
+        }
+        let [_, _, _, _, high, low, _, function, ..] = *bytes else { return more };
+        let length = 6 + usize::from(u16::from_be_bytes([high, low]));
+        if length <= modbus_tcp::HEADER || length > modbus_tcp::LONGEST || !self.knows(function) {
+            return Begins::Nothing;
+        }
+        if bytes.len() < length {
+            return more;
+        }
+        let fits = self.sides(&bytes[modbus_tcp::HEADER..length]) != [false, false];
+        if fits || place.in_step { Begins::Telegram(length) } else { Begins::Nothing }
+    }
+}
+
+/// A PROFIBUS frame. Token and acknowledgement have no check: they count only in step.
+fn fdl(place: Place<'_>) -> Begins {
+    let Place { bytes, last, in_step, .. } = place;
+    let more = if last { Begins::Nothing } else { Begins::More };
+    match (Fdl::length(bytes), bytes.first()) {
+        (None, Some(&profibus_fdl::SD2)) if bytes.len() < 4 => more,
+        (None, _) => Begins::Nothing,
+        (Some(length), Some(&(SC | SD4))) => match in_step {
+            true if length <= bytes.len() => Begins::Telegram(length),
+            true => more,
+            false => Begins::Nothing,
+        },
+        (Some(length), _) if length > bytes.len() => more,
+        (Some(length), _) if Fdl::check_matches(Span::new(0, length).of(bytes)) => Begins::Telegram(length),
+        _ => Begins::Nothing,
+    }
+}
+
+/// Unit and check of an RTU frame.
+const AROUND: usize = modbus_rtu::RTU.around();
+
+/// Whether a frame of `length` begins `bytes` whose PDU is of the length `rule` and whose check is
+/// right.
+#[inline]
+fn right(bytes: &[u8], length: Option<usize>, rule: Option<Length>, more: Begins) -> Begins {
+    // Nothing tells how long it is: it cannot be told from what follows, unless bytes are missing.
+    let Some(length) = length else { return if bytes.len() < 12 { more } else { Begins::Nothing } };
+    if length > modbus_rtu::RTU.longest() || length < modbus_rtu::RTU.shortest() {
+        return Begins::Nothing;
+    }
+    if bytes.len() < length {
+        return more;
+    }
+    let frame = &bytes[..length];
+    if rule.is_some_and(|rule| !rule.fits(&frame[1..length - 2])) || crc_residue(frame) != 0 {
+        return Begins::Nothing;
+    }
+    Begins::Telegram(length)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::modbus::STANDARD;
+
+    const REQUEST: &[u8] = &[1, 3, 0, 200, 0, 3, 0x84, 0x35];
+
+    fn begins(bytes: &[u8], waiting: Option<Waiting>) -> Begins {
+        let place = Place { bytes, last: true, in_step: true, waiting };
+        Splitter::new(&STANDARD).begins(&modbus_rtu::PROTOCOL, place)
+    }
+
+    #[test]
+    fn a_telegram_ends_where_rule_and_check_agree() {
+        assert_eq!(begins(REQUEST, None), Begins::Telegram(8));
+        assert_eq!(begins(&[REQUEST, REQUEST].concat(), None), Begins::Telegram(8));
+        assert_eq!(begins(&REQUEST[1..], None), Begins::Nothing);
+        let more = Place { bytes: &REQUEST[..6], last: false, in_step: true, waiting: None };
+        assert_eq!(Splitter::new(&STANDARD).begins(&modbus_rtu::PROTOCOL, more), Begins::More);
+    }
+
+    #[test]
+    fn the_request_that_waits_decides_between_a_telegram_and_its_beginning() {
+        // A request from 02xxh on that ends in 00: as a response of two bytes, it is right one byte
+        // earlier.
+        let found = (0..=u16::MAX).find_map(|n| {
+            let [high, low] = n.to_be_bytes();
+            let body = [1, 3, 2, high, low];
+            let check = (crate::walk::CRC_16_MODBUS.wire(&body) as u16).to_be_bytes();
+            let long = [1, 3, 2, high, low, check[0], check[1], 0];
+            (crc_residue(&long) == 0).then_some(long)
+        });
+        let both = found.expect("a CRC stays right when a zero follows");
+        assert_eq!(begins(&both, None), Begins::Telegram(8), "a request is expected");
+        let waiting = Waiting { unit: 1, function: 3, length: Some(7) };
+        assert_eq!(begins(&both, Some(waiting)), Begins::Telegram(7));
+        let longer = Waiting { length: Some(9), ..waiting };
+        assert_eq!(begins(&both, Some(longer)), Begins::Telegram(8), "the response is of another length");
+    }
+
+    #[test]
+    fn the_length_of_a_response_follows_from_its_request() {
+        let splitter = Splitter::new(&STANDARD);
+        assert_eq!(splitter.answer_length(&[3, 0, 200, 0, 3]), Some(8));
+        assert_eq!(splitter.answer_length(&[1, 0, 200, 0, 9]), Some(4));
+        assert_eq!(splitter.answer_length(&[100, 0, 200, 0, 3]), Some(14));
+        assert_eq!(splitter.answer_length(&[16, 0, 200, 0, 1, 2, 0, 0]), Some(5));
+        assert_eq!(splitter.answer_length(&[17]), None);
+    }
+}

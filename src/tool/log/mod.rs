@@ -1,0 +1,489 @@
+//! Whole logs: any layout, any size, read in pieces; what was said in them, and what went wrong.
+//!
+//! A [`Log`] keeps 40 bytes and the telegram's own bytes for each telegram. The tree of fields is
+//! made for those that somebody looks at, by [`Log::report`], which reads their lines again.
+
+mod filter;
+mod format;
+mod pictures;
+mod rows;
+mod story;
+
+pub use crate::dialogue::traffic::{Dialog, Entry, Minutes, Role, Statistics};
+pub use crate::text::log::{LAYOUTS, Layout, Marks, Numbers, Place};
+pub use filter::{Filter, Wanted};
+pub use format::{Format, Refusal};
+pub use pictures::{Bucket, Point, Timeline};
+pub use story::time_text;
+
+use super::Options;
+use super::decode::{Report, decode};
+use crate::dialogue::traffic::{Chunk, Hint, Traffic, statistics};
+use crate::dialogue::{self, Candidate, Choice};
+use crate::frame::split::{Begins, Splitter, can_split};
+use crate::frame::{PROTOCOLS, Protocol, Verdict, modbus_ascii, split};
+use crate::message;
+use crate::text::log::{self, Event, Form, Reader, Sender};
+
+/// How a log is to be read, where a person says so.
+#[derive(Clone, Debug, Default)]
+pub struct Reading {
+    pub input: Input,
+    /// How numbers are written.
+    pub numbers: Option<Numbers>,
+    /// What was marked in one line.
+    pub marks: Option<Marks>,
+}
+
+/// What a file is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Input {
+    /// Its beginning tells.
+    #[default]
+    Auto,
+    Text,
+    /// Bytes of a line without anything between them.
+    Binary,
+    /// A capture of a network.
+    Capture,
+}
+
+impl Input {
+    /// The inputs with their stable words.
+    pub const KEYS: [(&'static str, Self); 4] =
+        [("auto", Self::Auto), ("text", Self::Text), ("binary", Self::Binary), ("pcap", Self::Capture)];
+}
+
+/// Where a log's lines can be read again.
+pub trait Source {
+    /// Up to `length` bytes from `from` on.
+    fn read(&self, from: u64, length: usize) -> Vec<u8>;
+}
+
+impl Source for &[u8] {
+    fn read(&self, from: u64, length: usize) -> Vec<u8> {
+        let from = usize::try_from(from).unwrap_or(usize::MAX).min(self.len());
+        self[from..self.len().min(from + length)].to_vec()
+    }
+}
+
+/// A log that is read, or was.
+#[derive(Debug)]
+pub struct Log {
+    pub(super) options: Options,
+    format: Format,
+    form: Form,
+    /// What most telegrams are, and why.
+    choice: Choice,
+    input: Way,
+    traffic: Traffic,
+    /// Lines without bytes: number and place.
+    unread: Vec<(u32, u32)>,
+    ports: Vec<String>,
+    lines: u32,
+    taken: u64,
+    full: bool,
+    /// A file in UTF-16, as it would be in UTF-8.
+    transcoded: Option<Vec<u8>>,
+    fault: Option<String>,
+    statistics: Statistics,
+}
+
+/// How the bytes come out of the file.
+#[derive(Debug)]
+enum Way {
+    Text(Box<Reader>),
+    Utf16 {
+        reader: Box<Reader>,
+        encoding: log::Encoding,
+        odd: Vec<u8>,
+    },
+    Stream,
+    #[cfg(feature = "captures")]
+    Capture(Box<crate::capture::Capture>),
+}
+
+/// Reads a file that is in memory: a log, a capture, a stream, or plain lines of bytes, as pasted.
+///
+/// Where lines hold nothing but bytes, they are read as [`decode`] reads them, which says of each
+/// character what is wrong with it.
+pub fn decode_file(file: &[u8], reading: &Reading, options: Options) -> Result<Report, Refusal> {
+    let log = match Log::read(file, reading, options.clone()) {
+        // Nothing in it is nothing wrong.
+        Err(Refusal::Empty) => return Ok(decode("", options)),
+        log => log?,
+    };
+    if reading.marks.is_none() && reading.input != Input::Binary && log.is_plain() {
+        return Ok(decode(&String::from_utf8_lossy(file), options));
+    }
+    Ok(log.whole_report(&file))
+}
+
+/// What a file's beginning must hold at least, where the file has so much, for [`Log::open`].
+pub const BEGINNING: usize = 1 << 16;
+
+/// The largest file that is read.
+pub const LARGEST: u64 = 1 << 31;
+
+impl Log {
+    /// Begins to read a file of `size` bytes by its beginning, which is to be pushed all the same.
+    pub fn open(
+        beginning: &[u8],
+        size: u64,
+        reading: &Reading,
+        mut options: Options,
+    ) -> Result<Self, Refusal> {
+        let ident = &mut options.settings.frame.profibus.ident;
+        *ident = ident.or(options.device.and_then(|device| device.ident));
+        if size > LARGEST {
+            return Err(Refusal::TooLarge { size, most: LARGEST });
+        }
+        let (format, encoding) = format::tell(beginning, reading)?;
+        let text = match encoding {
+            log::Encoding::Utf16LittleEndian | log::Encoding::Utf16BigEndian => {
+                log::to_utf8(beginning, encoding)
+            }
+            _ => beginning.to_vec(),
+        };
+        let numbers = reading.numbers.or(match format {
+            Format::Text { numbers, .. } => Some(numbers),
+            _ => None,
+        });
+        let form = Form { numbers, marks: reading.marks.clone() };
+        let choice = choose(&format, &text, &form, &options);
+        let mut traffic = Traffic::new(choice.protocol, &options.settings.frame);
+        let reader = || Box::new(Reader::new(form.clone()));
+        let input = match format {
+            Format::Text { .. }
+                if matches!(encoding, log::Encoding::Utf16BigEndian | log::Encoding::Utf16LittleEndian) =>
+            {
+                Way::Utf16 { reader: reader(), encoding, odd: Vec::new() }
+            }
+            Format::Text { .. } => Way::Text(reader()),
+            Format::Stream => {
+                traffic.stream();
+                Way::Stream
+            }
+            #[cfg(feature = "captures")]
+            Format::Capture { .. } => Way::Capture(Box::default()),
+            #[cfg(not(feature = "captures"))]
+            Format::Capture { .. } => return Err(Refusal::NoCaptures),
+        };
+        let transcoded = matches!(input, Way::Utf16 { .. }).then(Vec::new);
+        Ok(Self {
+            options,
+            format,
+            form,
+            choice,
+            input,
+            traffic,
+            unread: Vec::new(),
+            ports: Vec::new(),
+            lines: 0,
+            taken: 0,
+            full: false,
+            transcoded,
+            fault: None,
+            statistics: Statistics::default(),
+        })
+    }
+
+    /// Reads a whole file that is in memory.
+    pub fn read(file: &[u8], reading: &Reading, options: Options) -> Result<Self, Refusal> {
+        let beginning = &file[..file.len().min(BEGINNING)];
+        let mut log = Self::open(beginning, file.len() as u64, reading, options)?;
+        log.push(file);
+        log.finish();
+        Ok(log)
+    }
+
+    /// Takes the next part of the file; `false` if no more can be kept.
+    pub fn push(&mut self, part: &[u8]) -> bool {
+        let Self { input, traffic, unread, ports, form: _, full, taken, transcoded, fault, .. } = self;
+        let mut room = true;
+        let mut take = |event: Event<'_>| match event {
+            Event::Piece(piece) => {
+                room &= traffic.take(Chunk {
+                    bytes: piece.bytes,
+                    time: piece.time,
+                    hint: hint(piece.sender),
+                    port: piece.port.map_or(0, |name| port(ports, name)),
+                    joins: piece.joins,
+                    both_ways: false,
+                    line: piece.line,
+                    offset: piece.offset as u32,
+                    colon: piece.colon,
+                });
+            }
+            Event::Unread { line, offset } => unread.push((line, offset as u32)),
+        };
+        match input {
+            Way::Text(reader) => reader.push(part, &mut take),
+            Way::Utf16 { reader, encoding, odd } => {
+                odd.extend_from_slice(part);
+                let rest = odd.split_off(odd.len() & !1);
+                let text = log::to_utf8(&std::mem::replace(odd, rest), *encoding);
+                reader.push(&text, &mut take);
+                transcoded.get_or_insert_default().extend_from_slice(&text);
+            }
+            Way::Stream => {
+                let offset = *taken as u32;
+                room = traffic.take(Chunk { bytes: part, joins: true, offset, ..Chunk::default() });
+            }
+            #[cfg(feature = "captures")]
+            Way::Capture(capture) => {
+                let mut segment = |segment: crate::capture::Segment<'_>| {
+                    room &= traffic.take(of_segment(&segment));
+                };
+                if let Err(problem) = capture.push(part, &mut segment) {
+                    fault.get_or_insert(problem.to_string());
+                    room = false;
+                }
+            }
+        }
+        let _ = &fault;
+        *taken += part.len() as u64;
+        *full |= !room;
+        room
+    }
+
+    /// The file ends, or is not read any further.
+    pub fn finish(&mut self) {
+        let Self { input, traffic, unread, ports, .. } = self;
+        let mut take = |event: Event<'_>| match event {
+            Event::Piece(piece) => {
+                traffic.take(Chunk {
+                    bytes: piece.bytes,
+                    time: piece.time,
+                    hint: hint(piece.sender),
+                    port: piece.port.map_or(0, |name| port(ports, name)),
+                    joins: piece.joins,
+                    both_ways: false,
+                    line: piece.line,
+                    offset: piece.offset as u32,
+                    colon: piece.colon,
+                });
+            }
+            Event::Unread { line, offset } => unread.push((line, offset as u32)),
+        };
+        match input {
+            Way::Text(reader) | Way::Utf16 { reader, .. } => {
+                reader.finish(&mut take);
+                self.lines = reader.lines();
+            }
+            Way::Stream => {}
+            #[cfg(feature = "captures")]
+            Way::Capture(capture) => {
+                let mut segment = |segment: crate::capture::Segment<'_>| {
+                    traffic.take(of_segment(&segment));
+                };
+                if let Err(problem) = capture.finish(&mut segment) {
+                    self.fault.get_or_insert(problem.to_string());
+                }
+            }
+        }
+        self.unread.sort_unstable();
+        self.traffic.finish();
+        self.statistics = statistics(&self.traffic);
+    }
+
+    /// Whether its lines hold hardly more than bytes.
+    fn is_plain(&self) -> bool {
+        let Format::Text { layout: None, numbers: Numbers::Hex, tells: false } = self.format else {
+            return false;
+        };
+        let right = self.entries().iter().filter(|entry| entry.verdict == Verdict::Right).count();
+        // Prose between telegrams would be marked, word for word.
+        let prose = right > 2 && !self.unread.is_empty();
+        self.transcoded.is_none() && !prose
+    }
+
+    /// What the file is.
+    pub fn format(&self) -> &Format {
+        &self.format
+    }
+
+    /// What most of its telegrams are.
+    pub fn protocol(&self) -> &'static Protocol {
+        self.choice.protocol
+    }
+
+    pub fn entries(&self) -> &[Entry] {
+        self.traffic.entries()
+    }
+
+    /// The bytes of an entry.
+    pub fn bytes(&self, entry: &Entry) -> &[u8] {
+        self.traffic.bytes(entry)
+    }
+
+    /// Lines without bytes: number and place in the file.
+    pub fn unread(&self) -> &[(u32, u32)] {
+        &self.unread
+    }
+
+    /// How many lines the file has.
+    pub fn lines(&self) -> u32 {
+        self.lines
+    }
+
+    pub fn statistics(&self) -> &Statistics {
+        &self.statistics
+    }
+
+    /// What kept the file from being read to its end.
+    pub fn fault(&self) -> Option<String> {
+        let more = self.full && self.fault.is_none();
+        self.fault.clone().or_else(|| {
+            more.then(|| "The log has more telegrams than can be kept: the rest was not read.".into())
+        })
+    }
+
+    /// What tells several lines or connections apart, in the order of [`Entry::port`].
+    pub fn port_name(&self, port: u16) -> Option<String> {
+        #[cfg(feature = "captures")]
+        if let Way::Capture(capture) = &self.input {
+            let connection = capture.connections().get(usize::from(port))?;
+            return Some(format!("{} – {}", connection.client, connection.server));
+        }
+        self.ports.get(usize::from(port).checked_sub(1)?).cloned()
+    }
+
+    /// How many bytes of memory it takes.
+    pub fn memory(&self) -> usize {
+        let transcoded = self.transcoded.as_ref().map_or(0, Vec::capacity);
+        self.traffic.memory() + self.unread.capacity() * size_of::<(u32, u32)>() + transcoded
+    }
+}
+
+#[cfg(feature = "captures")]
+fn of_segment<'a>(segment: &crate::capture::Segment<'a>) -> Chunk<'a> {
+    use crate::field::Direction;
+    let direction = if segment.from_client { Direction::Request } else { Direction::Response };
+    Chunk {
+        bytes: segment.bytes,
+        time: Some(segment.time),
+        hint: Hint::Says(direction),
+        port: u16::try_from(segment.connection).unwrap_or(u16::MAX),
+        joins: !segment.gap,
+        both_ways: true,
+        line: 0,
+        offset: segment.offset as u32,
+        colon: false,
+    }
+}
+
+fn hint(sender: Option<Sender>) -> Hint {
+    match sender {
+        None => Hint::None,
+        Some(Sender::Says(direction)) => Hint::Says(direction),
+        Some(Sender::Logger) => Hint::Logger,
+        Some(Sender::Other) => Hint::Other,
+    }
+}
+
+/// The number of the port with this name, from 1: 0 is where no name is said.
+fn port(ports: &mut Vec<String>, name: &[u8]) -> u16 {
+    const MOST: usize = 1000;
+    if let Some(known) = ports.iter().position(|known| known.as_bytes() == name) {
+        return known as u16 + 1;
+    }
+    if ports.len() < MOST {
+        ports.push(String::from_utf8_lossy(name).into_owned());
+    }
+    ports.len() as u16
+}
+
+/// What most telegrams of a file are, by its beginning.
+fn choose(format: &Format, text: &[u8], form: &Form, options: &Options) -> Choice {
+    if let Some(protocol) = options.protocol {
+        return Choice { protocol, reason: message!("set by hand"), others: Vec::new() };
+    }
+    let settings = &options.settings.frame;
+    let pieces = match format {
+        Format::Text { .. } => pieces(text, form),
+        Format::Stream => vec![(text.to_vec(), false)],
+        Format::Capture { .. } => {
+            let reason = message!("captures of networks mostly hold it");
+            return Choice { protocol: &crate::frame::modbus_tcp::PROTOCOL, reason, others: Vec::new() };
+        }
+    };
+    // Where nothing parts the telegrams, the protocol that finds most of them is meant.
+    let streams: Vec<&[u8]> =
+        pieces.iter().map(|(bytes, _)| bytes.as_slice()).filter(|bytes| bytes.len() > 300).collect();
+    if !streams.is_empty() {
+        let splitter = Splitter::new(settings.dialect);
+        let covered = |protocol: &'static Protocol| -> usize {
+            streams.iter().map(|bytes| covered(&splitter, protocol, &bytes[..bytes.len().min(1 << 15)])).sum()
+        };
+        let splitting = PROTOCOLS.iter().copied().filter(|protocol| can_split(protocol));
+        let best = splitting
+            .map(|protocol| (covered(protocol), protocol))
+            .reduce(|best, other| if other.0 > best.0 { other } else { best });
+        if let Some((_, protocol)) = best {
+            let reason = message!("most of its bytes are telegrams of this protocol");
+            return Choice { protocol, reason, others: Vec::new() };
+        }
+    }
+    let candidates: Vec<Candidate<'_>> = pieces
+        .iter()
+        .map(|(bytes, colon)| Candidate { bytes, written_as: colon.then_some(&modbus_ascii::PROTOCOL) })
+        .collect();
+    let choices = dialogue::protocols(&candidates, settings);
+    let count = |choice: &Choice| {
+        choices.iter().filter(|other| std::ptr::eq(other.protocol, choice.protocol)).count()
+    };
+    let most =
+        choices.iter().enumerate().max_by_key(|(index, choice)| (count(choice), std::cmp::Reverse(*index)));
+    match most {
+        Some((_, choice)) => choice.clone(),
+        None => Choice {
+            protocol: PROTOCOLS[0],
+            reason: message!("nothing else fits better"),
+            others: Vec::new(),
+        },
+    }
+}
+
+/// The first pieces of a text, each joined with those that continue it, and whether a colon is
+/// before it.
+fn pieces(text: &[u8], form: &Form) -> Vec<(Vec<u8>, bool)> {
+    const ENOUGH: usize = 300;
+    let mut pieces: Vec<(Vec<u8>, bool)> = Vec::new();
+    let mut count = 0;
+    let mut reader = Reader::new(form.clone());
+    let mut take = |event: Event<'_>| {
+        if let Event::Piece(piece) = event {
+            match pieces.last_mut() {
+                Some((bytes, _)) if piece.joins => bytes.extend_from_slice(piece.bytes),
+                Some(_) if count == ENOUGH => {}
+                _ => {
+                    count += 1;
+                    pieces.push((piece.bytes.to_vec(), piece.colon));
+                }
+            }
+        }
+    };
+    reader.push(text, &mut take);
+    reader.finish(&mut take);
+    // What is written as characters is told by the bytes that they stand for.
+    for (bytes, colon) in &mut pieces {
+        if let Some(decoded) = modbus_ascii::from_characters(bytes) {
+            (*bytes, *colon) = (decoded, true);
+        }
+    }
+    pieces
+}
+
+/// How many of `bytes` are telegrams of `protocol`.
+fn covered(splitter: &Splitter, protocol: &'static Protocol, bytes: &[u8]) -> usize {
+    let (mut at, mut covered, mut in_step) = (0, 0, true);
+    while at < bytes.len() {
+        let place = split::Place { bytes: &bytes[at..], last: true, in_step, waiting: None };
+        match splitter.begins(protocol, place) {
+            Begins::Telegram(length) => (at, covered, in_step) = (at + length, covered + length, true),
+            _ => (at, in_step) = (at + 1, false),
+        }
+    }
+    covered
+}

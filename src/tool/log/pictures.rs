@@ -1,0 +1,120 @@
+//! What can be seen at a glance: telegrams, errors and response times over time, and the values of
+//! a register.
+
+use super::filter::is_error;
+use super::{Entry, Log, Source};
+use crate::field::Direction;
+
+/// A log cut into equal stretches.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Timeline {
+    /// The stretches are of time, in microseconds; otherwise of telegrams.
+    pub timed: bool,
+    pub from: i64,
+    pub to: i64,
+    pub buckets: Vec<Bucket>,
+}
+
+/// What happened in a stretch.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Bucket {
+    pub telegrams: u32,
+    pub errors: u32,
+    pub unanswered: u32,
+    /// Microseconds from request to response, on average.
+    pub latency: Option<u32>,
+    pub worst: Option<u32>,
+}
+
+/// A value at a place of the log.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    pub index: usize,
+    pub time: Option<i64>,
+    pub value: f64,
+}
+
+impl Log {
+    /// Cuts the log, or those of its telegrams that `chosen` names, into `count` stretches.
+    pub fn timeline(&self, chosen: Option<&[u32]>, count: usize) -> Timeline {
+        let entries = self.entries();
+        let all = entries.len();
+        let timed = self.statistics().times.filter(|(from, to)| to > from);
+        let (from, to) = timed.unwrap_or((0, all.saturating_sub(1) as i64));
+        let mut buckets = vec![(Bucket::default(), 0_u64, 0_u64); count.max(1)];
+        let mut add = |index: usize, entry: &Entry| {
+            let at = match timed {
+                Some(_) => entry.time(),
+                None => Some(index as i64),
+            };
+            let Some(at) = at else { return };
+            let place = (i128::from(at - from) * count as i128 / i128::from((to - from).max(0) + 1)) as usize;
+            let Some((bucket, sum, answers)) = buckets.get_mut(place) else { return };
+            bucket.telegrams += u32::from(entry.counts());
+            bucket.errors += u32::from(is_error(entry));
+            bucket.unanswered += u32::from(entry.unanswered());
+            if entry.direction == Direction::Response
+                && let Some(latency) = self.latency(entry)
+            {
+                *sum += u64::from(latency);
+                *answers += 1;
+                bucket.worst = bucket.worst.max(Some(latency));
+            }
+        };
+        match chosen {
+            Some(chosen) => chosen.iter().for_each(|index| add(*index as usize, &entries[*index as usize])),
+            None => entries.iter().enumerate().for_each(|(index, entry)| add(index, entry)),
+        }
+        let average = |(bucket, sum, answers): (Bucket, u64, u64)| Bucket {
+            latency: (answers > 0).then(|| (sum / answers) as u32),
+            ..bucket
+        };
+        Timeline { timed: timed.is_some(), from, to, buckets: buckets.into_iter().map(average).collect() }
+    }
+
+    /// The values of register `address` of `unit`, as they were read and written, at most `most` of
+    /// them. Where the device's manual knows what stands there, its value is meant, else the number
+    /// in the register.
+    pub fn series(&self, source: &dyn Source, unit: Option<u8>, address: u16, most: usize) -> Vec<Point> {
+        let holds = |entry: &Entry| {
+            let right = entry.unit == unit && entry.counts() && !entry.refuses();
+            let inside = self.registers(entry).is_some_and(|(start, count)| {
+                address >= start && usize::from(address - start) < usize::from(count)
+            });
+            // What is read stands in the response, what is written in the request.
+            let reads = matches!(entry.function, 3 | 4 | 100);
+            right && inside && reads == (entry.direction == Direction::Response)
+        };
+        let found: Vec<usize> = self
+            .entries()
+            .iter()
+            .enumerate()
+            .filter(|(_, entry)| holds(entry))
+            .map(|(index, _)| index)
+            .collect();
+        let step = found.len().div_ceil(most.max(1)).max(1);
+        let point = |index: &usize| {
+            let entry = &self.entries()[*index];
+            Some(Point { index: *index, time: entry.time(), value: self.value(source, *index, address)? })
+        };
+        found.iter().step_by(step).filter_map(point).collect()
+    }
+
+    /// The value of a register in telegram `index`.
+    fn value(&self, source: &dyn Source, index: usize, address: u16) -> Option<f64> {
+        let entry = &self.entries()[index];
+        let request = entry.partner().filter(|_| entry.direction == Direction::Response);
+        let indices: Vec<usize> = request.into_iter().chain([index]).collect();
+        let report = self.report(source, &indices);
+        let detail = report.detail(indices.len() - 1)?;
+        let mut blocks = detail.device.blocks.iter();
+        let known =
+            blocks.find(|block| (block.from..=block.to).contains(&address)).and_then(|block| block.value());
+        let number = known.and_then(|text| text.to_string().replace('\u{2212}', "-").parse::<f64>().ok());
+        let raw = || {
+            let at = usize::from(address.checked_sub(detail.start?)?);
+            detail.values.get(at).map(|value| f64::from(*value))
+        };
+        number.or_else(raw).filter(|value| value.is_finite())
+    }
+}

@@ -1,0 +1,224 @@
+//! Telegrams of a log read as far as anywhere else: with all their fields.
+
+use super::{Entry, Format, Log, Role, Source, Way, time_text};
+use crate::dialogue::traffic::latency;
+use crate::dialogue::{Certainty, Choice, Guess};
+use crate::field::{Direction, Span};
+use crate::frame::Verdict;
+use crate::frame::modbus_ascii;
+use crate::message;
+use crate::text::Line;
+use crate::text::log::{Event, Reader};
+use crate::tool::decode::{Options, Report, Summary, Telegram};
+
+impl Log {
+    /// The telegrams `indices` of the log, in that order, as a report. A request and its response
+    /// know each other where both are among them; what telegrams before them said of how the devices
+    /// are set up is known.
+    pub fn report(&self, source: &dyn Source, indices: &[usize]) -> Report {
+        let lessons = self.lessons(indices);
+        let all: Vec<usize> = lessons.iter().chain(indices).copied().collect();
+        // Each part is in the log's order, unless a person chose otherwise.
+        let ordered = indices.is_sorted();
+        let place = |index: usize| match lessons.binary_search(&index) {
+            Ok(at) => Some(at),
+            Err(_) if ordered => indices.binary_search(&index).ok().map(|at| at + lessons.len()),
+            Err(_) => indices.iter().position(|other| *other == index).map(|at| at + lessons.len()),
+        };
+        let telegrams = all.iter().filter_map(|index| {
+            let entry = self.entries().get(*index)?;
+            let partner = entry.partner().and_then(place);
+            let mut telegram = self.telegram(entry, source);
+            match entry.direction {
+                Direction::Request => telegram.answered_by = partner,
+                Direction::Response => telegram.answers = partner,
+            }
+            Some(telegram)
+        });
+        let mut report = Report::of(telegrams.collect(), self.options.clone());
+        report.forget(lessons.len());
+        report
+    }
+
+    /// The report of all telegrams, without what is no telegram or is there twice.
+    pub fn whole_report(&self, source: &dyn Source) -> Report {
+        let counted = self.entries().iter().enumerate().filter(|(_, entry)| entry.counts());
+        let indices: Vec<usize> = counted.map(|(index, _)| index).collect();
+        let mut report = self.report(source, &indices);
+        let statistics = self.statistics();
+        report.counted = Some(Summary {
+            telegrams: report.telegrams.len(),
+            check_failed: statistics.check_failed,
+            checked: report
+                .telegrams
+                .iter()
+                .filter(|it| matches!(it.verdict, Verdict::Right | Verdict::Wrong))
+                .count(),
+            unchecked: statistics.unchecked,
+            pairs: statistics.pairs,
+            unanswered: statistics.unanswered,
+            unpaired: statistics.unasked,
+            lines: self.lines as usize,
+            lines_not_understood: self.unread().len(),
+            bytes_discarded: statistics.bytes_discarded,
+            layout: Some(self.format.key()),
+        });
+        report
+    }
+
+    /// Writes that set up what others mean, before the first of `indices`, with their responses.
+    fn lessons(&self, indices: &[usize]) -> Vec<usize> {
+        /// More are not looked for.
+        const MOST: usize = 200;
+        let Some(profile) = self.options.device else { return Vec::new() };
+        if indices.len() > 1 && indices.is_sorted() && indices.first() == Some(&0) {
+            return Vec::new();
+        }
+        let first = indices.iter().copied().min().unwrap_or_default().min(self.entries().len());
+        let teaches = |entry: &&(usize, &Entry)| {
+            let (_, entry) = entry;
+            let bytes = self.bytes(entry);
+            let at = match entry.protocol().key {
+                "modbus-rtu" | "modbus-ascii" => 2,
+                "modbus-tcp" => 8,
+                _ => return false,
+            };
+            let address = bytes.get(at..at + 2).map(|pair| u16::from_be_bytes([pair[0], pair[1]]));
+            let writes = matches!(entry.function, 6 | 16 | 101) && entry.direction == Direction::Request;
+            writes && entry.partner().is_some() && address.is_some_and(|address| profile.teaches(address))
+        };
+        let mut found = Vec::new();
+        for (index, entry) in self.entries()[..first].iter().enumerate().rev().filter(|entry| teaches(&entry))
+        {
+            if found.len() >= MOST {
+                break;
+            }
+            found.extend(entry.partner().filter(|partner| *partner < first));
+            found.push(index);
+        }
+        found.sort_unstable();
+        found
+    }
+
+    fn telegram(&self, entry: &Entry, source: &dyn Source) -> Telegram {
+        let line = self.line(entry, source);
+        let protocol = entry.protocol();
+        let (certainty, reason) = match entry.role {
+            Role::Echo => {
+                (Certainty::Certain, message!("it is the request before it, come back over the same wires"))
+            }
+            _ if entry.partner().is_some() => {
+                (Certainty::Certain, message!("request and response fit each other"))
+            }
+            _ => (
+                Certainty::Likely,
+                message!("its length, its place in the log and what the log says of it tell"),
+            ),
+        };
+        let own = std::ptr::eq(protocol, self.choice.protocol);
+        let reason_of_protocol =
+            if own { self.choice.reason.clone() } else { message!("its own bytes prove it") };
+        Telegram {
+            unit: entry.unit,
+            choice: Choice { protocol, reason: reason_of_protocol, others: Vec::new() },
+            guess: Guess { direction: entry.direction, certainty, reason },
+            verdict: entry.verdict,
+            answers: None,
+            answered_by: None,
+            step: None,
+            time: entry.time().map(|time| time_text(time)),
+            latency: self.latency(entry),
+            line,
+        }
+    }
+
+    /// Microseconds between a response and its request.
+    pub fn latency(&self, entry: &Entry) -> Option<u32> {
+        let partner = &self.entries()[entry.partner()?];
+        match entry.direction {
+            Direction::Request => latency(partner, entry),
+            Direction::Response => latency(entry, partner),
+        }
+    }
+
+    /// The bytes of a telegram with their places in the file.
+    fn line(&self, entry: &Entry, source: &dyn Source) -> Line {
+        let bytes = self.bytes(entry).to_vec();
+        let number = entry.line as usize;
+        if entry.line == 0 {
+            let from = entry.offset as usize;
+            let places = match self.format {
+                Format::Stream => (from..from + bytes.len()).map(|at| Span::new(at, at + 1)).collect(),
+                _ => Vec::new(),
+            };
+            let span = if places.is_empty() { Span::default() } else { Span::new(from, from + bytes.len()) };
+            return Line { number, span, places, bytes, ..Line::default() };
+        }
+        let places = self.places(entry, source);
+        let span = match (places.first(), places.last()) {
+            (Some(first), Some(last)) => Span::new(first.from, last.to),
+            _ => Span::new(entry.offset as usize, entry.offset as usize),
+        };
+        let colon = std::ptr::eq(entry.protocol(), &raw const modbus_ascii::PROTOCOL);
+        Line { number, span, places, bytes, colon, ..Line::default() }
+    }
+
+    /// Reads the lines of a telegram again, for the places of its bytes.
+    fn places(&self, entry: &Entry, source: &dyn Source) -> Vec<Span> {
+        /// A line of a telegram has hardly more.
+        const PART: usize = 4096;
+        const MOST: usize = 1 << 18;
+        let wanted = usize::from(entry.skip) + usize::from(entry.length);
+        let offset = u64::from(entry.offset);
+        let mut part = PART;
+        loop {
+            let text = match (&self.transcoded, &self.input) {
+                (Some(text), _) => (&text.as_slice()).read(offset, part),
+                (None, Way::Text(_)) => source.read(offset, part),
+                _ => return Vec::new(),
+            };
+            let whole = text.len() < part;
+            let mut places: Vec<Span> = Vec::new();
+            let mut reader = Reader::starting_at(self.form.clone(), offset, entry.line);
+            let mut take = |event: Event<'_>| {
+                if let Event::Piece(piece) = event
+                    && places.len() < wanted
+                {
+                    let base = piece.offset as usize;
+                    let mut spans: Vec<Span> = piece.places.iter().map(|place| place.shifted(base)).collect();
+                    // Two characters of Modbus ASCII are one byte.
+                    if let [b':', ..] = piece.bytes
+                        && modbus_ascii::from_characters(piece.bytes).is_some()
+                    {
+                        let pairs = spans[1..].chunks(2).take((piece.bytes.trim_ascii_end().len() - 1) / 2);
+                        spans = pairs.map(|pair| Span::new(pair[0].from, pair[pair.len() - 1].to)).collect();
+                    }
+                    places.extend(spans);
+                }
+            };
+            reader.push(&text, &mut take);
+            reader.finish(&mut take);
+            if places.len() >= wanted || whole || part >= MOST {
+                let from = usize::from(entry.skip).min(places.len());
+                let to = wanted.min(places.len());
+                return places[from..to].to_vec();
+            }
+            part *= 4;
+        }
+    }
+
+    /// The line of the file that begins at `offset`, as text.
+    pub fn text_at(&self, source: &dyn Source, offset: u32, length: usize) -> String {
+        let bytes = match &self.transcoded {
+            Some(text) => (&text.as_slice()).read(offset.into(), length),
+            None => source.read(offset.into(), length),
+        };
+        let line = bytes.split(|c| matches!(c, b'\n' | b'\r')).next().unwrap_or_default();
+        String::from_utf8_lossy(line).into_owned()
+    }
+
+    /// How the log is read as far as the devices go.
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+}
