@@ -1,9 +1,10 @@
 //! Turns compiled wasm into the static page.
 //!
 //! `cargo xtask build` runs this in the project's folder as
-//! `bundle <folder> <name>=<wasm file>=<style>,<style>…`. Each module gets a document of its own from the template
-//! `page.html`, the first one as `index.html`, the others as `<name>.html`. The style is in `style/`.
-//! The folder is left holding the finished page and nothing else.
+//! `bundle <folder> <name>=<wasm file>=<style>,<style>…[=<worker>=<wasm file>]…`. Each module gets a document of
+//! its own from the template `page.html`, the first one as `index.html`, the others as `<name>.html`. The
+//! style is in `style/`. A worker is a second wasm file that the module starts when it needs it. The folder
+//! is left holding the finished page and nothing else.
 
 mod names;
 mod page;
@@ -28,15 +29,22 @@ fn main() -> ExitCode {
 }
 
 fn run() -> Result<(), String> {
-    let usage = "Usage: bundle <folder> <name>=<wasm file>=<style>,<style>…";
+    let usage = "Usage: bundle <folder> <name>=<wasm file>=<style>,<style>…[=<worker>=<wasm file>]…";
     let mut arguments = std::env::args().skip(1);
     let folder = PathBuf::from(arguments.next().ok_or(usage)?);
 
     let mut modules = Vec::new();
     for argument in arguments {
-        let (name, rest) = argument.split_once('=').ok_or(usage)?;
-        let (path, styles) = rest.rsplit_once('=').ok_or(usage)?;
-        modules.push(Module::read(name, Path::new(path), styles)?);
+        let parts: Vec<&str> = argument.split('=').collect();
+        let (name, path, styles, worker) = match parts[..] {
+            [name, path, styles] => (name, path, styles, None),
+            [name, path, styles, worker, wasm] => (name, path, styles, Some((worker, wasm))),
+            _ => return Err(usage.to_owned()),
+        };
+        let worker = worker.map(|(name, path)| Compiled::read(name, Path::new(path))).transpose()?;
+        let compiled = Compiled::read(name, Path::new(path))?;
+        let style = hashed(name, "css", stylesheet(styles)?);
+        modules.push(Module { name: name.to_owned(), compiled, style, worker });
     }
     if modules.is_empty() {
         return Err(usage.to_owned());
@@ -48,13 +56,26 @@ fn run() -> Result<(), String> {
     let mut files = Vec::new();
     let mut documents = Vec::new();
     for (index, module) in modules.into_iter().enumerate() {
-        let Module { name, glue, wasm, style } = module;
+        let Module { name, compiled: Compiled { glue, wasm }, style, worker } = module;
         let boot = hashed("boot", "js", page::boot(&glue, &wasm)?.into_bytes());
-        let links = Links { style: &style, icon: &icon, boot: &boot, glue: &glue, wasm: &wasm };
+        let mut start = None;
+        if let Some(Compiled { glue, wasm }) = worker {
+            start = Some(hashed("worker", "js", page::worker(&glue, &wasm)?.into_bytes()));
+            files.extend([glue, wasm]);
+        }
+        let links = Links {
+            style: &style,
+            icon: &icon,
+            boot: &boot,
+            glue: &glue,
+            wasm: &wasm,
+            worker: start.as_ref(),
+        };
         let name = if index == 0 { "index" } else { &name };
         let content = page::html(&template, &links)?.into_bytes();
         documents.push(File { name: format!("{name}.html"), content });
         files.extend([boot, glue, wasm, style]);
+        files.extend(start);
     }
     files.push(icon);
     // Last, so that a page served from this folder during a build finds all it links to.
@@ -62,16 +83,22 @@ fn run() -> Result<(), String> {
     write_all(&folder, &files)
 }
 
-/// What wasm-bindgen makes of one compiled module.
+/// A document of the page and what it needs.
 struct Module {
     name: String,
-    glue: File,
-    wasm: File,
+    compiled: Compiled,
     style: File,
+    worker: Option<Compiled>,
 }
 
-impl Module {
-    fn read(name: &str, path: &Path, styles: &str) -> Result<Module, String> {
+/// What wasm-bindgen makes of one compiled binary.
+struct Compiled {
+    glue: File,
+    wasm: File,
+}
+
+impl Compiled {
+    fn read(name: &str, path: &Path) -> Result<Compiled, String> {
         let says = |error| format!("wasm-bindgen could not read {}: {error:#}", path.display());
         let mut output = Bindgen::new()
             .input_path(path)
@@ -105,10 +132,8 @@ impl Module {
         }
         let glue = minifier::js::minify(&glue)
             .map_err(|error| format!("The glue of {name} cannot be made smaller: {error}."))?;
-        Ok(Module {
-            name: name.to_owned(),
+        Ok(Compiled {
             glue: hashed(name, "js", glue.to_string().into_bytes()),
-            style: hashed(name, "css", stylesheet(styles)?),
             wasm: hashed(name, "wasm", output.wasm_mut().emit_wasm()),
         })
     }

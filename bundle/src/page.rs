@@ -5,6 +5,9 @@ use crate::names::integrity;
 /// The boot script as it is written in this folder, with the plain names of the files it loads.
 const BOOT: &str = include_str!("boot.js");
 
+/// The same for a worker.
+const WORKER: &str = include_str!("worker.js");
+
 /// The note in the page while it is not running. A page opened by file:// gets neither its scripts
 /// nor its stylesheet, so only the document itself can say why nothing happens. Everywhere else the
 /// stylesheet hides the note, and the boot script removes it or gives it the fitting words.
@@ -34,12 +37,23 @@ pub struct Links<'a> {
     pub boot: &'a File,
     pub glue: &'a File,
     pub wasm: &'a File,
+    /// The script of a worker, which the page starts when it needs it.
+    pub worker: Option<&'a File>,
 }
 
 /// The boot script with hashed names in the place of plain ones: `./page.js` becomes
 /// `./page-0123456789abcdef.js`.
 pub fn boot(glue: &File, wasm: &File) -> Result<String, String> {
-    let text = replace_once(BOOT, "./page.js", &format!("./{}", glue.name))?;
+    with_names(BOOT, glue, wasm)
+}
+
+/// The same for the script of a worker.
+pub fn worker(glue: &File, wasm: &File) -> Result<String, String> {
+    with_names(WORKER, glue, wasm)
+}
+
+fn with_names(script: &str, glue: &File, wasm: &File) -> Result<String, String> {
+    let text = replace_once(script, "./page.js", &format!("./{}", glue.name))?;
     replace_once(&text, "./page.wasm", &format!("./{}", wasm.name))
 }
 
@@ -50,8 +64,8 @@ pub fn html(template: &str, links: &Links) -> Result<String, String> {
     let policy = format!("<head>\n    <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">");
     let with_policy = replace_once(template, "<head>", &policy)?;
 
-    let Links { style, icon, boot, glue, wasm } = links;
-    let lines = [
+    let Links { style, icon, boot, glue, wasm, worker } = links;
+    let mut lines = vec![
         format!(
             r#"<link rel="preload" href="./{}" as="fetch" type="application/wasm" crossorigin>"#,
             wasm.name
@@ -69,6 +83,8 @@ pub fn html(template: &str, links: &Links) -> Result<String, String> {
         format!(r#"<link rel="icon" href="./{}" type="image/svg+xml">"#, icon.name),
         format!(r#"<script src="./{}" integrity="{}" defer></script>"#, boot.name, integrity(&boot.content)),
     ];
+    // The page's program finds its worker by this link; a browser does nothing with it.
+    lines.extend(worker.map(|worker| format!(r#"<link id="worker" rel="help" href="./{}">"#, worker.name)));
     let links = format!("  {}\n  </head>", lines.join("\n    "));
     let with_links = replace_once(&with_policy, "</head>", &links)?;
     replace_once(&with_links, "<body>", &format!("<body>\n    {NOTE}"))
@@ -104,6 +120,7 @@ mod tests {
                 boot: &file("boot-3.js"),
                 glue: &file("page-4.js"),
                 wasm: &file("page-5.wasm"),
+                worker: None,
             },
         )
     }

@@ -10,7 +10,7 @@ use wasm_bindgen::closure::Closure;
 use wasm_bindgen_futures::JsFuture;
 use web_sys::js_sys::Array;
 use web_sys::{
-    Blob, ClipboardEvent, DragEvent, Element, Event, FocusEvent, HtmlAnchorElement, HtmlDocument,
+    Blob, ClipboardEvent, DragEvent, Element, Event, File, FocusEvent, HtmlAnchorElement, HtmlDocument,
     HtmlElement, HtmlInputElement, HtmlSelectElement, HtmlTextAreaElement, KeyboardEvent, Url,
 };
 
@@ -98,8 +98,14 @@ pub fn print() {
 
 /// Gives `text` to the browser as a file to keep.
 pub fn download(name: &str, text: &str) {
-    let blob = Blob::new_with_str_sequence(&Array::of1(&text.into()));
-    let Ok(address) = blob.and_then(|blob| Url::create_object_url_with_blob(&blob)) else { return };
+    if let Ok(blob) = Blob::new_with_str_sequence(&Array::of1(&text.into())) {
+        download_blob(name, &blob);
+    }
+}
+
+/// Gives a file to the browser to keep.
+pub fn download_blob(name: &str, blob: &Blob) {
+    let Ok(address) = Url::create_object_url_with_blob(blob) else { return };
     if let Ok(link) = document().create_element("a") {
         let link: HtmlAnchorElement = link.unchecked_into();
         link.set_href(&address);
@@ -113,10 +119,8 @@ pub fn download(name: &str, text: &str) {
 pub fn read_file(event: &Event, then: impl FnOnce(String, String) + 'static) {
     /// Longer files would stop the page for seconds.
     const LONGEST: f64 = 5e6;
+    let Some(file) = file(event) else { return };
     let field = event.target().and_then(|target| target.dyn_into::<HtmlInputElement>().ok());
-    let dropped = event.dyn_ref::<DragEvent>().and_then(DragEvent::data_transfer);
-    let files = dropped.and_then(|dropped| dropped.files()).or_else(|| field.as_ref()?.files());
-    let Some(file) = files.and_then(|files| files.get(0)) else { return };
     if file.size() > LONGEST {
         say(&format!("{} has more than 5 MB, which the page does not read yet.", file.name()));
         return;
@@ -129,6 +133,14 @@ pub fn read_file(event: &Event, then: impl FnOnce(String, String) + 'static) {
             field.set_value("");
         }
     });
+}
+
+/// The file that was chosen or dropped, if it was one.
+pub fn file(event: &Event) -> Option<File> {
+    let field = event.target().and_then(|target| target.dyn_into::<HtmlInputElement>().ok());
+    let dropped = event.dyn_ref::<DragEvent>().and_then(DragEvent::data_transfer);
+    let files = dropped.and_then(|dropped| dropped.files()).or_else(|| field?.files())?;
+    files.get(0)
 }
 
 /// The text that was pasted or dropped, if it was one.
@@ -407,7 +419,6 @@ pub fn rove(among: &[Element], element: &Element) {
 }
 
 pub fn focus(element: &Element) {
-    if let Some(element) = element.dyn_ref::<HtmlElement>() {
-        let _ = element.focus();
-    }
+    // Pictures (SVG) have elements of another type with the same method.
+    let _ = element.unchecked_ref::<HtmlElement>().focus();
 }

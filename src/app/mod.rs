@@ -2,11 +2,13 @@
 //!
 //! - `state`: what is read, `making`: what is built, and `setup`: how devices are set up, `stepping`: a check while it is followed, as signals;
 //! - `browser`: what the browser is asked for; `address`: what a link and a reload bring back;
-//! - `pages`: the views; `components`: their parts.
+//! - `pages`: the views; `components`: their parts;
+//! - `logs`: logs of any size, and the worker that reads them.
 
 mod address;
 mod browser;
 mod components;
+mod logs;
 mod making;
 mod pages;
 mod setup;
@@ -36,6 +38,20 @@ pub fn build() {
     browser::listen(move |event| pages::build::hear(making, state, event));
     mount_to_body(move || view! { <pages::build::Build making state /> });
     address::keep((making, state));
+}
+
+/// Starts the page that shows logs.
+pub fn logs() {
+    browser::tell_of_panics();
+    let desk = logs::desk::Desk::new();
+    browser::listen(move |event| pages::logs::hear(desk, event));
+    mount_to_body(move || view! { <pages::logs::Logs desk /> });
+    desk.start();
+}
+
+/// Starts the worker that reads logs.
+pub fn log_worker() {
+    logs::worker::start();
 }
 
 /// Starts the page that says how devices are set up.

@@ -43,20 +43,31 @@ pub fn summary(report: &Report) -> String {
 }
 
 /// Telegram `index`: what it says, its bytes, a line for each field, what is wrong.
-fn telegram(report: &Report, index: usize) -> String {
+pub fn telegram(report: &Report, index: usize) -> String {
     let (Some(telegram), Some(detail)) = (report.telegrams.get(index), report.detail(index)) else {
         return String::new();
     };
     let direction = telegram.guess.told().map_or("telegram", Direction::key);
     let bytes = &telegram.line.bytes;
+    let asked = telegram.answers.and_then(|request| report.telegrams.get(request));
     let mut text = format!(
         "{}. {} {direction}{}: {}.\n   {}\n",
-        index + 1,
+        telegram.number,
         telegram.choice.protocol.label,
-        telegram.answers.map_or(String::new(), |request| format!(" to {}", request + 1)),
+        asked.map_or(String::new(), |request| format!(" to {}", request.number)),
         detail.meaning().sentence(),
         hex(bytes),
     );
+    if let Some(time) = &telegram.time {
+        text += &format!("   {time}");
+        if let (Some(micros), Some(_)) = (telegram.latency, asked) {
+            text += &format!(", {} ms after the request", f64::from(micros) / 1000.0);
+        }
+        text.push('\n');
+    }
+    if !telegram.comment.is_empty() {
+        text += &format!("   Note: {}\n", telegram.comment);
+    }
     let mut rows = Vec::new();
     for block in &detail.device.blocks {
         rows_of(&block.field, bytes, 0, &mut rows);

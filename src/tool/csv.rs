@@ -4,7 +4,7 @@ use super::{Report, Verdict};
 use crate::field::{Direction, hex};
 
 /// The columns.
-const HEAD: [&str; 11] = [
+const HEAD: [&str; 14] = [
     "number",
     "line",
     "protocol",
@@ -16,6 +16,9 @@ const HEAD: [&str; 11] = [
     "bytes",
     "meaning",
     "problems",
+    "time",
+    "latency ms",
+    "comment",
 ];
 
 /// The whole report, with a row of titles.
@@ -27,34 +30,46 @@ const HEAD: [&str; 11] = [
 /// assert!(table.lines().nth(1).unwrap().starts_with("1,1,modbus-rtu,request,1,3,,right,01 03 00 C8"));
 /// ```
 pub fn table(report: &Report) -> String {
-    let mut text = row(HEAD.map(str::to_owned));
-    for (index, telegram) in report.telegrams.iter().enumerate() {
-        let Some(detail) = report.detail(index) else { continue };
-        let direction = telegram.guess.told().map_or("unknown", Direction::key);
-        let check = match telegram.verdict {
-            Verdict::Right => "right",
-            Verdict::Wrong => "wrong",
-            Verdict::Unchecked => "too short",
-            Verdict::NoCheck => "none",
-        };
-        let number = |number: Option<u8>| number.map_or(String::new(), |number| number.to_string());
-        let problems: Vec<String> =
-            detail.problems().into_iter().map(|problem| problem.message.sentence()).collect();
-        text += &row([
-            (index + 1).to_string(),
-            telegram.line.number.to_string(),
-            telegram.choice.protocol.key.to_owned(),
-            direction.to_owned(),
-            number(detail.unit),
-            number(detail.function),
-            number(detail.exception),
-            check.to_owned(),
-            hex(&telegram.line.bytes),
-            detail.meaning().sentence(),
-            problems.join("; "),
-        ]);
-    }
-    text
+    let rows = (0..report.telegrams.len()).map(|index| telegram(report, index));
+    std::iter::once(head()).chain(rows).collect()
+}
+
+/// The row of titles.
+pub fn head() -> String {
+    row(HEAD.map(str::to_owned))
+}
+
+/// The row of telegram `index`; nothing if there is none.
+pub fn telegram(report: &Report, index: usize) -> String {
+    let (Some(telegram), Some(detail)) = (report.telegrams.get(index), report.detail(index)) else {
+        return String::new();
+    };
+    let direction = telegram.guess.told().map_or("unknown", Direction::key);
+    let check = match telegram.verdict {
+        Verdict::Right => "right",
+        Verdict::Wrong => "wrong",
+        Verdict::Unchecked => "too short",
+        Verdict::NoCheck => "none",
+    };
+    let number = |number: Option<u8>| number.map_or(String::new(), |number| number.to_string());
+    let problems: Vec<String> =
+        detail.problems().into_iter().map(|problem| problem.message.sentence()).collect();
+    row([
+        telegram.number.to_string(),
+        telegram.line.number.to_string(),
+        telegram.choice.protocol.key.to_owned(),
+        direction.to_owned(),
+        number(detail.unit),
+        number(detail.function),
+        number(detail.exception),
+        check.to_owned(),
+        hex(&telegram.line.bytes),
+        detail.meaning().sentence(),
+        problems.join("; "),
+        telegram.time.clone().unwrap_or_default(),
+        telegram.latency.map_or(String::new(), |micros| (f64::from(micros) / 1000.0).to_string()),
+        telegram.comment.clone(),
+    ])
 }
 
 fn row<const N: usize>(cells: [String; N]) -> String {

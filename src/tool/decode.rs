@@ -102,6 +102,8 @@ pub struct Report {
 /// A telegram as far as it was looked at without reading its fields.
 #[derive(Clone, Debug)]
 pub struct Telegram {
+    /// Its number for a person, from 1: in its text or its log.
+    pub number: usize,
     /// Its bytes and where they stand in the text.
     pub line: Line,
     /// Its protocol, and what else it could be.
@@ -120,6 +122,8 @@ pub struct Telegram {
     pub time: Option<String>,
     /// Microseconds from the request to the response.
     pub latency: Option<u32>,
+    /// What a person noted on it.
+    pub comment: String,
 }
 
 /// A report in numbers.
@@ -269,6 +273,7 @@ impl Report {
         }
         let unit = (protocol.unit)(&line.bytes);
         self.telegrams.push(Telegram {
+            number: index + 1,
             line,
             choice,
             guess,
@@ -279,6 +284,7 @@ impl Report {
             step: None,
             time: None,
             latency: None,
+            comment: String::new(),
         });
     }
 

@@ -56,6 +56,9 @@ pub struct Row {
     pub latency_ms: Option<f64>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub problems: Vec<Problem>,
+    /// What a person noted on it.
+    #[serde(skip_serializing_if = "str::is_empty")]
+    pub comment: String,
     /// What may have happened where the check failed, best first.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub hypotheses: Vec<Hypothesis>,
@@ -200,13 +203,14 @@ pub fn line(report: &Report, index: usize, fields: bool) -> serde_json::Result<S
     let (Some(telegram), Some(detail)) = (report.telegrams.get(index), report.detail(index)) else {
         return Ok(String::new());
     };
-    let mut row = row(index, telegram, detail, fields);
+    let pair = telegram.answers.or(telegram.answered_by).and_then(|pair| report.telegrams.get(pair));
+    let mut row = row(telegram, pair, detail, fields);
     let explained = report.explanations(index).into_iter();
     row.hypotheses = explained.map(|one| hypothesis(one, &telegram.line.bytes)).collect();
     serde_json::to_string(&row)
 }
 
-fn row(index: usize, telegram: &Telegram, detail: Detail, fields: bool) -> Row {
+fn row(telegram: &Telegram, pair: Option<&Telegram>, detail: Detail, fields: bool) -> Row {
     let line = &telegram.line;
     let problems = detail.problems().into_iter().map(|problem| Problem {
         code: problem.code,
@@ -219,7 +223,7 @@ fn row(index: usize, telegram: &Telegram, detail: Detail, fields: bool) -> Row {
         span: None,
     });
     Row {
-        n: index + 1,
+        n: telegram.number,
         line: (line.number > 0).then_some(line.number),
         offset: (line.number == 0).then_some(line.span.from),
         time: telegram.time.clone(),
@@ -242,8 +246,9 @@ fn row(index: usize, telegram: &Telegram, detail: Detail, fields: bool) -> Row {
         start: detail.start,
         count: detail.count,
         meaning: detail.meaning().sentence() + ".",
-        pair: telegram.answers.or(telegram.answered_by).map(|index| index + 1),
+        pair: pair.map(|pair| pair.number),
         problems: problems.chain(remarks).collect(),
+        comment: telegram.comment.clone(),
         hypotheses: Vec::new(),
         fields: fields.then(|| detail.fields.iter().map(node).collect()),
         channel: detail.channel.as_ref().map(channel),

@@ -20,17 +20,32 @@ struct Module {
     features: &'static str,
     /// Its files in `style/`.
     styles: &'static str,
+    /// A binary that works for it in the background, with its features.
+    worker: Option<(&'static str, &'static str)>,
 }
 
 /// The page's documents, each with a wasm file of its own: who reads telegrams need not wait for the
 /// forms that build them. The first is `index.html`.
 const MODULES: &[Module] = &[
-    Module { name: "decode", binary: "decode-page", features: "page", styles: "page,telegram,decode" },
-    Module { name: "build", binary: "build-page", features: "page,keys", styles: "page,telegram,form,build" },
-    Module { name: "check", binary: "check-page", features: "page", styles: "page,form,check" },
-    Module { name: "sheet", binary: "sheet-page", features: "page,keys", styles: "page,form,sheet" },
-    Module { name: "devices", binary: "devices-page", features: "page,keys", styles: "page,form,devices" },
+    module("decode", "decode-page", "page", "page,telegram,decode"),
+    Module {
+        worker: Some(("log-worker", "page,keys")),
+        ..module("logs", "logs-page", "page", "page,telegram,decode,form,logs")
+    },
+    module("build", "build-page", "page,keys", "page,telegram,form,build"),
+    module("check", "check-page", "page", "page,form,check"),
+    module("sheet", "sheet-page", "page,keys", "page,form,sheet"),
+    module("devices", "devices-page", "page,keys", "page,form,devices"),
 ];
+
+const fn module(
+    name: &'static str,
+    binary: &'static str,
+    features: &'static str,
+    styles: &'static str,
+) -> Module {
+    Module { name, binary, features, styles, worker: None }
+}
 
 pub fn run() -> Result {
     let start = Instant::now();
@@ -38,10 +53,13 @@ pub fn run() -> Result {
     compile_bundler()?;
     let mut arguments = vec![OsString::from(DIST)];
     for module in MODULES {
-        let wasm = compile(module)?;
         let mut argument = OsString::from(format!("{}=", module.name));
-        argument.push(wasm);
+        argument.push(compile(module.binary, module.features)?);
         argument.push(format!("={}", module.styles));
+        if let Some((binary, features)) = module.worker {
+            argument.push(format!("={binary}="));
+            argument.push(compile(binary, features)?);
+        }
         arguments.push(argument);
     }
     steps::run(Command::new(bundler()).args(arguments))?;
@@ -64,8 +82,8 @@ fn bundler() -> PathBuf {
     tools::target_folder().join("release").join(name)
 }
 
-/// Compiles one module and says where its wasm file is.
-fn compile(module: &Module) -> Result<PathBuf> {
+/// Compiles a binary for the page and says where its wasm file is.
+fn compile(binary: &str, features: &str) -> Result<PathBuf> {
     let flags: Vec<OsString> = local_paths()
         .into_iter()
         .map(|(path, name)| {
@@ -78,13 +96,13 @@ fn compile(module: &Module) -> Result<PathBuf> {
     steps::run(
         tools::cargo()
             .args(["build", "--profile", "page", "--target", tools::WASM])
-            .args(["--no-default-features", "--features", module.features])
-            .args(["--bin", module.binary])
+            .args(["--no-default-features", "--features", features])
+            .args(["--bin", binary])
             // Not RUSTFLAGS, which splits at spaces, and a path may have one.
             .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}".as_ref()))
             .env_remove("RUSTFLAGS"),
     )?;
-    Ok(tools::target_folder().join(tools::WASM).join("page").join(format!("{}.wasm", module.binary)))
+    Ok(tools::target_folder().join(tools::WASM).join("page").join(format!("{binary}.wasm")))
 }
 
 /// The folders of this machine whose names the compiler would write into the texts of panics, and

@@ -117,8 +117,15 @@ fn choose(state: State, event: &Event) {
     state.choose(browser::span(event).map(|span| Chosen { span, at: at.unwrap_or(span.from) }));
 }
 
-/// Arrow keys go from cell to cell and from row to row; left and right close and open a group.
 fn go(state: State, event: &Event) {
+    match browser::key(event).as_str() {
+        "Escape" if browser::closest(event, STOP).is_some() => state.choose(None),
+        _ => go_among(event),
+    }
+}
+
+/// Arrow keys go from cell to cell and from row to row; left and right close and open a group.
+pub fn go_among(event: &Event) {
     let Some(stop) = browser::closest(event, STOP) else { return };
     let Some(all) = stop.closest(".strip, .fields").ok().flatten().map(|root| browser::all(&root, STOP))
     else {
@@ -139,10 +146,6 @@ fn go(state: State, event: &Event) {
         "ArrowLeft" | "ArrowUp" => at.saturating_sub(1),
         "Home" => 0,
         "End" => last,
-        "Escape" => {
-            state.choose(None);
-            return;
-        }
         _ => return,
     };
     event.prevent_default();
@@ -150,7 +153,7 @@ fn go(state: State, event: &Event) {
 }
 
 /// Shows or hides the rows within the group of `button`.
-fn open_or_close(button: &Element, open: Option<bool>) {
+pub fn open_or_close(button: &Element, open: Option<bool>) {
     let Some(now) = button.get_attribute("aria-expanded") else { return };
     let open = open.unwrap_or(now == "false");
     let _ = button.set_attribute("aria-expanded", if open { "true" } else { "false" });

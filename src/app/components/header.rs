@@ -41,10 +41,11 @@ pub fn hear(kind: &str, event: &Event) {
 }
 
 const DEVICES: &str = "devices.html";
+const LOGS: &str = "logs.html";
 
 /// The views, each a document of its own.
-const VIEWS: [(&str, &str); 4] =
-    [(".", "Decode"), ("build.html", "Build"), ("check.html", "Check"), (DEVICES, "Devices")];
+const VIEWS: [(&str, &str); 5] =
+    [(".", "Decode"), (LOGS, "Logs"), ("build.html", "Build"), ("check.html", "Check"), (DEVICES, "Devices")];
 
 fn content(here: &str) -> String {
     let chosen = browser::remembered(THEME).unwrap_or_default();
@@ -57,8 +58,8 @@ fn content(here: &str) -> String {
             }
         }
         p.promise { "Reads and builds field-bus telegrams. Nothing leaves this page." }
-        // How devices are set up goes with the links of the other views.
-        @if here != DEVICES { button.quiet type="button" data-link="" { "Copy link" } }
+        // How devices are set up goes with the links of the other views; no link holds a log.
+        @if here != DEVICES && here != LOGS { button.quiet type="button" data-link="" { "Copy link" } }
         (shortcuts::shortcuts())
         label.theme {
             span { "Theme" }

@@ -4,4 +4,5 @@ pub mod build;
 pub mod check;
 pub mod decode;
 pub mod devices;
+pub mod logs;
 pub mod sheet;

@@ -11,7 +11,7 @@ mod story;
 
 pub use crate::dialogue::traffic::{Dialog, Entry, Minutes, Role, Statistics};
 pub use crate::text::log::{LAYOUTS, Layout, Marks, Numbers, Place};
-pub use filter::{Filter, Wanted};
+pub use filter::{Filter, Wanted, is_error};
 pub use format::{Format, Refusal};
 pub use pictures::{Bucket, Point, Timeline};
 pub use story::time_text;
@@ -87,6 +87,8 @@ pub struct Log {
     transcoded: Option<Vec<u8>>,
     fault: Option<String>,
     statistics: Statistics,
+    /// The telegrams that set up what others mean.
+    teaching: Vec<usize>,
 }
 
 /// How the bytes come out of the file.
@@ -185,6 +187,7 @@ impl Log {
             transcoded,
             fault: None,
             statistics: Statistics::default(),
+            teaching: Vec::new(),
         })
     }
 
@@ -285,6 +288,7 @@ impl Log {
         self.unread.sort_unstable();
         self.traffic.finish();
         self.statistics = statistics(&self.traffic);
+        self.find_lessons();
     }
 
     /// Whether its lines hold hardly more than bytes.

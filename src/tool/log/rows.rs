@@ -28,7 +28,7 @@ impl Log {
         let telegrams = all.iter().filter_map(|index| {
             let entry = self.entries().get(*index)?;
             let partner = entry.partner().and_then(place);
-            let mut telegram = self.telegram(entry, source);
+            let mut telegram = Telegram { number: index + 1, ..self.telegram(entry, source) };
             match entry.direction {
                 Direction::Request => telegram.answered_by = partner,
                 Direction::Response => telegram.answers = partner,
@@ -45,6 +45,8 @@ impl Log {
         let counted = self.entries().iter().enumerate().filter(|(_, entry)| entry.counts());
         let indices: Vec<usize> = counted.map(|(index, _)| index).collect();
         let mut report = self.report(source, &indices);
+        // Whoever gets all of them need not know what was left out.
+        report.telegrams.iter_mut().zip(1..).for_each(|(telegram, number)| telegram.number = number);
         let statistics = self.statistics();
         report.counted = Some(Summary {
             telegrams: report.telegrams.len(),
@@ -67,37 +69,41 @@ impl Log {
     }
 
     /// Writes that set up what others mean, before the first of `indices`, with their responses.
-    fn lessons(&self, indices: &[usize]) -> Vec<usize> {
-        /// More are not looked for.
+    fn lessons(&self, indices: &[usize]) -> &[usize] {
+        /// Older ones were written over, or the device has forgotten them.
         const MOST: usize = 200;
-        let Some(profile) = self.options.device else { return Vec::new() };
-        if indices.len() > 1 && indices.is_sorted() && indices.first() == Some(&0) {
-            return Vec::new();
-        }
-        let first = indices.iter().copied().min().unwrap_or_default().min(self.entries().len());
-        let teaches = |entry: &&(usize, &Entry)| {
-            let (_, entry) = entry;
-            let bytes = self.bytes(entry);
-            let at = match entry.protocol().key {
-                "modbus-rtu" | "modbus-ascii" => 2,
-                "modbus-tcp" => 8,
-                _ => return false,
-            };
-            let address = bytes.get(at..at + 2).map(|pair| u16::from_be_bytes([pair[0], pair[1]]));
-            let writes = matches!(entry.function, 6 | 16 | 101) && entry.direction == Direction::Request;
-            writes && entry.partner().is_some() && address.is_some_and(|address| profile.teaches(address))
+        let first = indices.iter().copied().min().unwrap_or_default();
+        let before = self.teaching.partition_point(|index| *index < first);
+        &self.teaching[before.saturating_sub(MOST)..before]
+    }
+
+    /// Finds the writes that set up what others mean, for the device that is chosen.
+    pub(super) fn find_lessons(&mut self) {
+        let Some(profile) = self.options.device else {
+            self.teaching.clear();
+            return;
         };
+        let teaches = |entry: &Entry| {
+            matches!(entry.function, 6 | 16 | 101)
+                && entry.direction == Direction::Request
+                && self.registers(entry).is_some_and(|(start, count)| {
+                    (start..=start.saturating_add(count)).any(|address| profile.teaches(address))
+                })
+        };
+        let entries = self.entries().iter().enumerate();
         let mut found = Vec::new();
-        for (index, entry) in self.entries()[..first].iter().enumerate().rev().filter(|entry| teaches(&entry))
-        {
-            if found.len() >= MOST {
-                break;
-            }
-            found.extend(entry.partner().filter(|partner| *partner < first));
+        for (index, entry) in entries.filter(|(_, entry)| teaches(entry)) {
+            found.extend(entry.partner());
             found.push(index);
         }
         found.sort_unstable();
-        found
+        self.teaching = found;
+    }
+
+    /// Takes the bytes for those of another device, or of one that is set up in another way.
+    pub fn set_options(&mut self, options: Options) {
+        self.options = Options { protocol: self.options.protocol, ..options };
+        self.find_lessons();
     }
 
     fn telegram(&self, entry: &Entry, source: &dyn Source) -> Telegram {
@@ -119,6 +125,7 @@ impl Log {
         let reason_of_protocol =
             if own { self.choice.reason.clone() } else { message!("its own bytes prove it") };
         Telegram {
+            number: 0,
             unit: entry.unit,
             choice: Choice { protocol, reason: reason_of_protocol, others: Vec::new() },
             guess: Guess { direction: entry.direction, certainty, reason },
@@ -126,8 +133,9 @@ impl Log {
             answers: None,
             answered_by: None,
             step: None,
-            time: entry.time().map(|time| time_text(time)),
+            time: entry.time().map(time_text),
             latency: self.latency(entry),
+            comment: String::new(),
             line,
         }
     }
@@ -209,12 +217,22 @@ impl Log {
 
     /// The line of the file that begins at `offset`, as text.
     pub fn text_at(&self, source: &dyn Source, offset: u32, length: usize) -> String {
-        let bytes = match &self.transcoded {
+        let text = self.piece_at(source, offset, length);
+        text.split(['\n', '\r']).next().unwrap_or_default().to_owned()
+    }
+
+    /// Up to `length` bytes of the file from `offset` on, as text; each byte that is no UTF-8 is one
+    /// character of ASCII in it, so that places stay as they are.
+    pub fn piece_at(&self, source: &dyn Source, offset: u32, length: usize) -> String {
+        let mut bytes = match &self.transcoded {
             Some(text) => (&text.as_slice()).read(offset.into(), length),
             None => source.read(offset.into(), length),
         };
-        let line = bytes.split(|c| matches!(c, b'\n' | b'\r')).next().unwrap_or_default();
-        String::from_utf8_lossy(line).into_owned()
+        while let Err(error) = std::str::from_utf8(&bytes) {
+            let at = error.valid_up_to();
+            bytes[at] = b'?';
+        }
+        String::from_utf8(bytes).unwrap_or_default()
     }
 
     /// How the log is read as far as the devices go.

@@ -1,0 +1,5 @@
+//! The worker that reads logs.
+
+fn main() {
+    buslens::app::log_worker();
+}

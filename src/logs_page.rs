@@ -1,0 +1,5 @@
+//! The page that shows logs.
+
+fn main() {
+    buslens::app::logs();
+}
