@@ -21,7 +21,7 @@ pub const PHONE: (u32, u32) = (390, 844);
 pub const NARROW: (u32, u32) = (320, 640);
 
 /// Every document of the page.
-pub const DOCUMENTS: [&str; 5] = ["", "build.html", "check.html", "devices.html", "sheet.html"];
+pub const DOCUMENTS: [&str; 6] = ["", "logs.html", "build.html", "check.html", "devices.html", "sheet.html"];
 
 /// A page of its own in a browser of its own.
 pub struct Page {
@@ -180,6 +180,28 @@ impl Page {
     /// What a script gives.
     pub async fn value(&self, script: &str) -> Result<Value> {
         Ok(self.driver.execute(script, vec![]).await?.json().clone())
+    }
+
+    /// Waits for what is drawn by a worker.
+    pub async fn wait_for(&self, css: &str) -> Result {
+        for _ in 0..1200 {
+            if self.count(css).await? > 0 {
+                return Ok(());
+            }
+            tokio::time::sleep(Duration::from_millis(25)).await;
+        }
+        panic!("{css} does not come");
+    }
+
+    /// Waits until the field has this text in it.
+    pub async fn until_value(&self, css: &str, text: &str) -> Result {
+        for _ in 0..200 {
+            if self.one(css).await?.value().await?.is_some_and(|value| value.contains(text)) {
+                return Ok(());
+            }
+            tokio::time::sleep(Duration::from_millis(25)).await;
+        }
+        panic!("{css} does not become {text}");
     }
 
     /// What axe-core finds, in words.
