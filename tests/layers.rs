@@ -12,8 +12,9 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("frame", &["field", "walk", "modbus", "profibus"]),
     ("device", &["field", "walk"]),
     ("text", &["field"]),
+    ("capture", &[]),
     ("dialogue", &["field", "walk", "modbus", "profibus", "frame"]),
-    ("tool", &["field", "walk", "modbus", "profibus", "frame", "device", "text", "dialogue"]),
+    ("tool", &["field", "walk", "modbus", "profibus", "frame", "device", "text", "capture", "dialogue"]),
     ("app", &["field", "tool"]),
 ];
 

@@ -29,7 +29,7 @@ struct Module {
 const MODULES: &[Module] = &[
     module("decode", "decode-page", "page", "page,telegram,decode"),
     Module {
-        worker: Some(("log-worker", "page,keys")),
+        worker: Some(("log-worker", "page,keys,captures")),
         ..module("logs", "logs-page", "page", "page,telegram,decode,form,logs")
     },
     module("build", "build-page", "page,keys", "page,telegram,form,build"),
@@ -54,11 +54,11 @@ pub fn run() -> Result {
     let mut arguments = vec![OsString::from(DIST)];
     for module in MODULES {
         let mut argument = OsString::from(format!("{}=", module.name));
-        argument.push(compile(module.binary, module.features)?);
+        argument.push(compile(module.binary, module.features, "page")?);
         argument.push(format!("={}", module.styles));
         if let Some((binary, features)) = module.worker {
             argument.push(format!("={binary}="));
-            argument.push(compile(binary, features)?);
+            argument.push(compile(binary, features, "worker")?);
         }
         arguments.push(argument);
     }
@@ -82,8 +82,9 @@ fn bundler() -> PathBuf {
     tools::target_folder().join("release").join(name)
 }
 
-/// Compiles a binary for the page and says where its wasm file is.
-fn compile(binary: &str, features: &str) -> Result<PathBuf> {
+/// Compiles a binary for the page in one of the profiles of `Cargo.toml`, and says where its wasm file
+/// is.
+fn compile(binary: &str, features: &str, profile: &str) -> Result<PathBuf> {
     let flags: Vec<OsString> = local_paths()
         .into_iter()
         .map(|(path, name)| {
@@ -95,14 +96,14 @@ fn compile(binary: &str, features: &str) -> Result<PathBuf> {
         .collect();
     steps::run(
         tools::cargo()
-            .args(["build", "--profile", "page", "--target", tools::WASM])
+            .args(["build", "--profile", profile, "--target", tools::WASM])
             .args(["--no-default-features", "--features", features])
             .args(["--bin", binary])
             // Not RUSTFLAGS, which splits at spaces, and a path may have one.
             .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}".as_ref()))
             .env_remove("RUSTFLAGS"),
     )?;
-    Ok(tools::target_folder().join(tools::WASM).join("page").join(format!("{binary}.wasm")))
+    Ok(tools::target_folder().join(tools::WASM).join(profile).join(format!("{binary}.wasm")))
 }
 
 /// The folders of this machine whose names the compiler would write into the texts of panics, and

@@ -41,8 +41,9 @@ pub struct Traffic {
     entries: Vec<Entry>,
     lanes: Vec<Lane>,
     lane_of: HashMap<(u16, u8), usize>,
-    /// The lane of the last chunk.
+    /// The lane of the last chunk, and its port and way.
     latest: usize,
+    latest_way: Option<(u16, u8)>,
     /// The request that waits, for each port.
     waiting: Vec<Option<Waiting>>,
     /// Units with their functions that had a right telegram: a bit for each.
@@ -68,7 +69,22 @@ struct Lane {
     barren: usize,
     /// How many bytes at the beginning are a chunk that was no whole telegram.
     held: usize,
+    /// Of a connection: what it carries, once its bytes tell.
+    carries: Carries,
 }
+
+/// What a connection carries.
+#[derive(Clone, Copy, Debug, Default)]
+enum Carries {
+    #[default]
+    Unknown,
+    Protocol(&'static Protocol),
+    /// No telegrams.
+    Foreign,
+}
+
+/// A connection of which so many bytes tell nothing carries no telegrams.
+const TELLING: usize = 4096;
 
 /// A chunk in a lane's buffer.
 #[derive(Clone, Copy, Debug)]
@@ -103,6 +119,7 @@ impl Traffic {
             lanes: Vec::new(),
             lane_of: HashMap::new(),
             latest: 0,
+            latest_way: None,
             waiting: Vec::new(),
             seen: vec![0; 256 * 2],
             clock: NO_TIME,
@@ -122,13 +139,13 @@ impl Traffic {
         if index != self.latest && !chunk.both_ways {
             self.close(self.latest);
         }
-        self.latest = index;
+        (self.latest, self.latest_way) = (index, Some((chunk.port, way)));
         let stays = chunk.joins && (!self.lanes[index].rows.is_empty() || self.lanes[index].streaming);
         if !stays {
             self.end_chunk(index, &chunk, time);
         }
         let lane = &mut self.lanes[index];
-        lane.streaming |= chunk.joins && chunk.both_ways;
+        lane.streaming |= chunk.both_ways;
         let row = Row {
             from: lane.buffer.len() as isize,
             time,
@@ -138,6 +155,10 @@ impl Traffic {
             offset: chunk.offset,
             colon: chunk.colon,
         };
+        if chunk.both_ways && !self.told(index, chunk.bytes, row) {
+            return true;
+        }
+        let lane = &mut self.lanes[index];
         if lane.streaming && lane.buffer.is_empty() {
             // The usual way of a stream: nothing of it is copied but what is left over.
             lane.rows.clear();
@@ -187,7 +208,7 @@ impl Traffic {
     }
 
     fn lane(&mut self, port: u16, way: u8) -> usize {
-        if self.lanes.get(self.latest).is_some() && self.lane_of.get(&(port, way)) == Some(&self.latest) {
+        if self.latest_way == Some((port, way)) {
             return self.latest;
         }
         let fresh = self.lanes.len();
@@ -227,6 +248,45 @@ impl Traffic {
                 self.close(index);
             }
         }
+    }
+
+    /// Tells what a connection carries; `false` where it is not known yet, or is of no interest.
+    fn told(&mut self, index: usize, bytes: &[u8], row: Row) -> bool {
+        match self.lanes[index].carries {
+            Carries::Protocol(_) => return true,
+            Carries::Foreign => return false,
+            Carries::Unknown => {}
+        }
+        let lane = &mut self.lanes[index];
+        lane.rows.push(row);
+        lane.buffer.extend_from_slice(bytes);
+        let place = Place { bytes: &lane.buffer, last: false, in_step: true, waiting: None };
+        let protocols: [&'static Protocol; 2] = [&modbus_tcp::PROTOCOL, &modbus_rtu::PROTOCOL];
+        let begins = |protocol: &&&'static Protocol| {
+            matches!(self.splitter.begins(protocol, place), Begins::Telegram(_))
+        };
+        if let Some(protocol) = protocols.iter().find(begins) {
+            lane.carries = Carries::Protocol(protocol);
+            self.drain_buffer(index, false);
+        } else if lane.buffer.len() > TELLING {
+            lane.carries = Carries::Foreign;
+            lane.buffer = Vec::new();
+            lane.rows.clear();
+        }
+        false
+    }
+
+    /// What most telegrams of a lane are.
+    fn main(&self, index: usize) -> &'static Protocol {
+        match self.lanes[index].carries {
+            Carries::Protocol(protocol) => protocol,
+            _ => self.protocol,
+        }
+    }
+
+    /// How many directions of connections carry no telegrams.
+    pub fn foreign(&self) -> usize {
+        self.lanes.iter().filter(|lane| matches!(lane.carries, Carries::Foreign)).count()
     }
 
     /// Reads all that is left of a lane.
@@ -278,9 +338,17 @@ impl Traffic {
 
     /// Whether an RTU telegram that begins so is longer.
     fn is_beginning(&self, bytes: &[u8]) -> bool {
-        std::ptr::eq(self.protocol, &raw const modbus_rtu::PROTOCOL)
+        /// Every function's length is told by so many bytes.
+        const TELLING: usize = 12;
+        let rtu = std::ptr::eq(self.protocol, &raw const modbus_rtu::PROTOCOL);
+        let known = bytes.get(1).is_some_and(|function| self.splitter.knows(*function));
+        let longer = |length: Option<usize>| match length {
+            Some(length) => length > bytes.len(),
+            None => bytes.len() < TELLING && bytes[1] & EXCEPTION == 0,
+        };
+        rtu && known
             && bytes.len() < modbus_rtu::RTU.longest()
-            && self.splitter.rtu_lengths(bytes).into_iter().flatten().any(|length| length > bytes.len())
+            && self.splitter.rtu_lengths(bytes).into_iter().any(longer)
     }
 
     fn is_right(&self, bytes: &[u8]) -> bool {
@@ -348,7 +416,8 @@ impl Traffic {
             // Unless there is one inside, the check counts more than the length.
             let inner = self.splitter.rtu_lengths(piece).into_iter().flatten();
             let mut inner = inner.filter(|length| *length < piece.len());
-            let none = !inner.any(|length| rtu(&piece[..length]));
+            // A check that is right before the telegram's end says little: zeros may follow.
+            let none = !self.is_beginning(piece) && !inner.any(|length| rtu(&piece[..length]));
             if none {
                 self.add(index, piece, from, &modbus_rtu::PROTOCOL, Verdict::Right);
             }
@@ -389,11 +458,7 @@ impl Traffic {
             return self.discard(index, piece, from);
         }
         let main = self.protocol;
-        let verdict = match (main.verdict)(piece) {
-            Verdict::Right => Verdict::NoCheck,
-            verdict => verdict,
-        };
-        self.add(index, piece, from, main, verdict);
+        self.add(index, piece, from, main, (main.verdict)(piece));
     }
 
     /// Takes the telegrams out of what waits in a lane.
@@ -415,7 +480,7 @@ impl Traffic {
     fn split(&mut self, index: usize, bytes: &[u8], from: usize, last: bool) -> usize {
         /// So much that no telegram begins in is given up at once.
         const HOPELESS: usize = 1 << 14;
-        let main = self.protocol;
+        let main = self.main(index);
         let port = usize::from(self.lanes[index].row(from).port);
         let mut in_step = self.lanes[index].in_step;
         // What lies before `at` and is no telegram begins at `garbage`.
@@ -459,7 +524,7 @@ impl Traffic {
 
     /// Bytes of a stream without a right telegram: a damaged one, if they begin or end like one.
     fn unframed(&mut self, index: usize, bytes: &[u8], from: usize) {
-        let rtu = std::ptr::eq(self.protocol, &raw const modbus_rtu::PROTOCOL);
+        let rtu = std::ptr::eq(self.main(index), &raw const modbus_rtu::PROTOCOL);
         let long = (modbus_rtu::RTU.shortest()..=modbus_rtu::RTU.longest()).contains(&bytes.len());
         let port = usize::from(self.lanes[index].row(from).port);
         let like = rtu && long && {
@@ -470,7 +535,7 @@ impl Traffic {
             awaited || seen || self.splitter.rtu_lengths(bytes).contains(&Some(bytes.len()))
         };
         match like {
-            true => self.add(index, bytes, from, self.protocol, Verdict::Wrong),
+            true => self.add(index, bytes, from, self.main(index), Verdict::Wrong),
             false => self.discard(index, bytes, from),
         }
     }

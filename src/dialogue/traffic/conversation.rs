@@ -123,6 +123,7 @@ impl Port {
             Hint::Other if !habits.logger_asks => Some(Direction::Request),
             Hint::Logger | Hint::Other => Some(Direction::Response),
         };
+        let alike = last.is_some_and(|(request, _)| bytes(&entries[request], data) == own);
         let echoes = habits.echo && repeats && !self.echoed && (entry.sides[0] || entry.sides == [false; 2]);
         let direction = match (entry.sides, hinted) {
             _ if echoes => Direction::Request,
@@ -146,11 +147,11 @@ impl Port {
         match (direction, exchange) {
             (Direction::Request, None) => entries[index].role = Role::Broadcast,
             (Direction::Request, Some(exchange)) => {
-                self.echoed = false;
-                let before = last.filter(|(request, _)| bytes(&entries[*request], data) == own);
-                if before.is_some() {
+                // Polls are alike, too: only who asks again at once tries again.
+                if repeats || (self.echoed && alike) {
                     entries[index].role = Role::Retry;
                 }
+                self.echoed = false;
                 // Who asks again does not wait for the first answer any more.
                 self.open.retain(|(_, open)| *open != exchange);
                 if self.open.len() >= most {

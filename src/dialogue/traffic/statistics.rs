@@ -106,9 +106,10 @@ pub fn statistics(traffic: &Traffic) -> Statistics {
             count(dialogs.entry(key).or_default(), entry, entries);
         }
     }
+    let whole = all.times.map_or(0, |(first, last)| last - first);
     all.dialogs = dialogs
         .into_iter()
-        .map(|((port, unit, function), gathered)| Dialog { port, unit, function, ..gathered.close() })
+        .map(|((port, unit, function), gathered)| Dialog { port, unit, function, ..gathered.close(whole) })
         .collect();
     all
 }
@@ -142,29 +143,26 @@ pub fn latency(response: &Entry, request: &Entry) -> Option<u32> {
 }
 
 impl Gathered {
-    fn close(mut self) -> Dialog {
+    /// `whole` is how long the log is.
+    fn close(mut self, whole: i64) -> Dialog {
         let middle = self.latencies.len() / 2;
         let median = (!self.latencies.is_empty()).then(|| *self.latencies.select_nth_unstable(middle).1);
         let worst = self.latencies.iter().copied().max();
-        Dialog { median, worst, silent: densest(&mut self.silent), ..self.dialog }
+        Dialog { median, worst, silent: densest(&mut self.silent, whole), ..self.dialog }
     }
 }
 
-/// The shortest stretch that holds two thirds of the times, where that is far shorter than all.
-fn densest(times: &mut [i64]) -> Option<Minutes> {
+/// The shortest stretch that holds nine of ten times, or else seven, where that is far shorter
+/// than the `whole` log.
+fn densest(times: &mut [i64], whole: i64) -> Option<Minutes> {
     const ENOUGH: usize = 5;
     times.sort_unstable();
-    let (first, last) = (*times.first()?, *times.last()?);
-    let count = (times.len() * 2).div_ceil(3).max(ENOUGH);
-    let (from, to) = times
-        .windows(count.min(times.len()))
-        .filter(|window| window.len() >= ENOUGH)
-        .map(|window| (window[0], window[window.len() - 1]))
-        .min_by_key(|(from, to)| to - from)?;
-    let dense = (to - from) * 3 <= last - first && last > first;
-    dense.then(|| Minutes {
-        from,
-        to,
-        count: times.iter().filter(|time| (from..=to).contains(*time)).count(),
-    })
+    let shortest = |tenths: usize| {
+        let count = (times.len() * tenths).div_ceil(10).max(ENOUGH);
+        let windows = times.windows(count).map(|window| (window[0], window[count - 1]));
+        windows.min_by_key(|(from, to)| to - from).filter(|(from, to)| (to - from) * 3 <= whole && whole > 0)
+    };
+    let (from, to) = shortest(9).or_else(|| shortest(7))?;
+    let inside = times.iter().filter(|time| (from..=to).contains(*time));
+    Some(Minutes { from, to, count: inside.count() })
 }

@@ -34,6 +34,8 @@ pub struct Run {
     tokens: usize,
     /// Where the second token's bytes begin.
     second: usize,
+    /// The same in the line.
+    second_at: usize,
     separator: u8,
     /// How wide the first separator is.
     gap: usize,
@@ -95,7 +97,8 @@ impl Scan {
         (self.strong, self.weak, self.words, self.words_since) = (None, None, 0, 0);
         let mut at = from;
         while at < line.len() {
-            let c = line[at];
+            at = self.same_again(line, at, numbers);
+            let Some(c) = line.get(at).copied() else { break };
             at = match c {
                 b'\\' => self.escape(line, at),
                 b'"' | b'\'' => self.quoted(line, at),
@@ -121,6 +124,38 @@ impl Scan {
         self.close();
     }
 
+    /// Most of a log are bytes of two hex digits with the same between them: they are read without
+    /// asking what else they could be. Returns where that ends.
+    #[inline]
+    fn same_again(&mut self, line: &[u8], mut at: usize, numbers: Option<Numbers>) -> usize {
+        let Some(run) = &mut self.open else { return at };
+        let width = run.gap;
+        let known =
+            run.tokens >= 2 && run.hex && !run.marked && run.span.to == at && (1..=2).contains(&width);
+        if !known || numbers == Some(Numbers::Decimal) {
+            return at;
+        }
+        let gap = [line[run.second_at - width], line[run.second_at - 1]];
+        while let Some(next) = line.get(at..at + width + 2) {
+            let (between, digits) = next.split_at(width);
+            let (high, low) = (DIGITS[usize::from(digits[0])], DIGITS[usize::from(digits[1])]);
+            let same = between[0] == gap[0] && between[width - 1] == gap[1];
+            let ends = line.get(at + width + 2).is_none_or(|c| !is_word(*c));
+            if !same || (high | low) > 15 || !ends {
+                break;
+            }
+            let place = Span::new(at + width, at + width + 2);
+            self.hex.push(high << 4 | low);
+            self.decimal.push(high.wrapping_mul(10).wrapping_add(low));
+            self.places.push(place);
+            run.decimal &= (high < 10) & (low < 10);
+            run.tokens += 1;
+            at = place.to;
+        }
+        (run.end, run.span.to, run.colon) = (self.hex.len(), at, false);
+        at
+    }
+
     /// The bytes of `run`, decimal only where they must be or are known to be.
     pub fn bytes(&self, run: &Run, numbers: Numbers) -> &[u8] {
         let decimal = run.decimal && (!run.hex || numbers == Numbers::Decimal) && !run.marked;
@@ -130,12 +165,20 @@ impl Scan {
     fn word(&mut self, line: &[u8], at: usize, numbers: Option<Numbers>) -> usize {
         if is_digit(line[at]) {
             // Bytes with dots or colons can go on like an address or a time.
-            let goes_on = self.open.as_ref().is_some_and(|run| run.tokens > 1 && run.span.to + 1 == at);
-            if let Some(to) = (!goes_on).then(|| address(line, at)).flatten() {
+            let goes_on = self.open.as_ref().is_some_and(|run| {
+                run.span.to + 1 == at && (run.tokens > 1 || matches!(line[run.span.to], b'.' | b':' | b'-'))
+            });
+            let end = at + line[at..].iter().take_while(|c| is_digit(**c)).count();
+            let mark = line.get(end).copied().filter(|_| !goes_on).unwrap_or_default();
+            if mark == b'.'
+                && let Some(to) = address(line, at)
+            {
                 self.stranger();
                 return to;
             }
-            if let Some(found) = (!goes_on).then(|| time::at(line, at)).flatten() {
+            if matches!(mark, b':' | b'-' | b'/' | b'.')
+                && let Some(found) = time::at(line, at)
+            {
                 self.close();
                 self.time = self.time.or(Some(found.micros));
                 return found.to;
@@ -254,14 +297,14 @@ impl Scan {
                 || (run.tokens == 8 && run.separator == b' ' && gap == b"-");
             if let Some(separator) = separator.filter(|_| fits && run.marked == marked) {
                 if run.tokens == 1 {
-                    (run.separator, run.gap, run.second) = (separator, gap.len(), first);
+                    (run.separator, run.gap, run.second, run.second_at) = (separator, gap.len(), first, at);
                 }
                 // `8: 01 03 …`: the first one is not of the run.
                 let restart = !same && run.tokens == 2 && Some(run.separator) != Some(separator);
                 if restart {
                     run.first = run.second;
                     run.span.from = self.places[run.first].from;
-                    (run.separator, run.gap, run.second) = (separator, gap.len(), first);
+                    (run.separator, run.gap, run.second, run.second_at) = (separator, gap.len(), first, at);
                     run.tokens = 1;
                     run.colon = false;
                 }
@@ -292,6 +335,7 @@ impl Scan {
             said: self.words_since == 0 && (self.strong.is_some() || self.weak.is_some()),
             tokens: 1,
             second: first,
+            second_at: at,
             separator: 0,
             gap: 0,
         });
@@ -489,6 +533,18 @@ pub(super) fn is_digit(c: u8) -> bool {
 fn is_word(c: u8) -> bool {
     c.is_ascii_alphanumeric() || c >= 0x80
 }
+
+/// The value of each hex digit; of all other characters, more than 15.
+static DIGITS: [u8; 256] = {
+    let mut digits = [0xFF; 256];
+    let mut at = 0;
+    while at < 16 {
+        digits[b"0123456789ABCDEF"[at] as usize] = at as u8;
+        digits[b"0123456789abcdef"[at] as usize] = at as u8;
+        at += 1;
+    }
+    digits
+};
 
 /// The value of up to two hex digits.
 fn hex_value(digits: &[u8]) -> u8 {

@@ -202,24 +202,9 @@ impl Log {
 
     /// Takes the next part of the file; `false` if no more can be kept.
     pub fn push(&mut self, part: &[u8]) -> bool {
-        let Self { input, traffic, unread, ports, form: _, full, taken, transcoded, fault, .. } = self;
+        let Self { input, traffic, unread, ports, full, taken, transcoded, fault, .. } = self;
         let mut room = true;
-        let mut take = |event: Event<'_>| match event {
-            Event::Piece(piece) => {
-                room &= traffic.take(Chunk {
-                    bytes: piece.bytes,
-                    time: piece.time,
-                    hint: hint(piece.sender),
-                    port: piece.port.map_or(0, |name| port(ports, name)),
-                    joins: piece.joins,
-                    both_ways: false,
-                    line: piece.line,
-                    offset: piece.offset as u32,
-                    colon: piece.colon,
-                });
-            }
-            Event::Unread { line, offset } => unread.push((line, offset as u32)),
-        };
+        let mut take = |event: Event<'_>| room &= self::take(event, traffic, unread, ports);
         match input {
             Way::Text(reader) => reader.push(part, &mut take),
             Way::Utf16 { reader, encoding, odd } => {
@@ -244,7 +229,6 @@ impl Log {
                 }
             }
         }
-        let _ = &fault;
         *taken += part.len() as u64;
         *full |= !room;
         room
@@ -253,22 +237,7 @@ impl Log {
     /// The file ends, or is not read any further.
     pub fn finish(&mut self) {
         let Self { input, traffic, unread, ports, .. } = self;
-        let mut take = |event: Event<'_>| match event {
-            Event::Piece(piece) => {
-                traffic.take(Chunk {
-                    bytes: piece.bytes,
-                    time: piece.time,
-                    hint: hint(piece.sender),
-                    port: piece.port.map_or(0, |name| port(ports, name)),
-                    joins: piece.joins,
-                    both_ways: false,
-                    line: piece.line,
-                    offset: piece.offset as u32,
-                    colon: piece.colon,
-                });
-            }
-            Event::Unread { line, offset } => unread.push((line, offset as u32)),
-        };
+        let mut take = |event: Event<'_>| _ = self::take(event, traffic, unread, ports);
         match input {
             Way::Text(reader) | Way::Utf16 { reader, .. } => {
                 reader.finish(&mut take);
@@ -300,6 +269,11 @@ impl Log {
         // Prose between telegrams would be marked, word for word.
         let prose = right > 2 && !self.unread.is_empty();
         self.transcoded.is_none() && !prose
+    }
+
+    /// How many directions of connections carry no telegrams.
+    fn foreign(&self) -> usize {
+        self.traffic.foreign()
     }
 
     /// What the file is.
@@ -360,6 +334,33 @@ impl Log {
     }
 }
 
+/// Takes what was found in a text; `false` if no more telegrams can be kept.
+fn take(
+    event: Event<'_>,
+    traffic: &mut Traffic,
+    unread: &mut Vec<(u32, u32)>,
+    ports: &mut Vec<String>,
+) -> bool {
+    let piece = match event {
+        Event::Piece(piece) => piece,
+        Event::Unread { line, offset } => {
+            unread.push((line, offset as u32));
+            return true;
+        }
+    };
+    traffic.take(Chunk {
+        bytes: piece.bytes,
+        time: piece.time,
+        hint: hint(piece.sender),
+        port: piece.port.map_or(0, |name| port(ports, name)),
+        joins: piece.joins,
+        both_ways: false,
+        line: piece.line,
+        offset: piece.offset as u32,
+        colon: piece.colon,
+    })
+}
+
 #[cfg(feature = "captures")]
 fn of_segment<'a>(segment: &crate::capture::Segment<'a>) -> Chunk<'a> {
     use crate::field::Direction;
@@ -369,7 +370,7 @@ fn of_segment<'a>(segment: &crate::capture::Segment<'a>) -> Chunk<'a> {
         time: Some(segment.time),
         hint: Hint::Says(direction),
         port: u16::try_from(segment.connection).unwrap_or(u16::MAX),
-        joins: !segment.gap,
+        joins: !segment.gap && !segment.datagram,
         both_ways: true,
         line: 0,
         offset: segment.offset as u32,

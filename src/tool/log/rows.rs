@@ -159,7 +159,7 @@ impl Log {
                 Format::Stream => (from..from + bytes.len()).map(|at| Span::new(at, at + 1)).collect(),
                 _ => Vec::new(),
             };
-            let span = if places.is_empty() { Span::default() } else { Span::new(from, from + bytes.len()) };
+            let span = Span::new(from, from + places.len());
             return Line { number, span, places, bytes, ..Line::default() };
         }
         let places = self.places(entry, source);

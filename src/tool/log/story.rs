@@ -60,6 +60,11 @@ impl Log {
         say(all.late, &|n| message!("{n} came late, after other requests", n = n), "response");
         say(all.broadcasts, &|n| message!("{n} to all, which nobody answers", n = n), "request");
         say(all.bytes_discarded, &|n| message!("{n} between the telegrams belong to none", n = n), "byte");
+        say(
+            self.foreign().div_ceil(2),
+            &|n| message!("{n} of the capture without telegrams, left out", n = n),
+            "connection",
+        );
         say(self.unread().len(), &|n| message!("{n} without bytes", n = n), "line");
         story
     }

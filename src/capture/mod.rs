@@ -1,0 +1,116 @@
+//! Captures of networks: pcap and pcapng files, taken in pieces of any size, into the bytes of TCP
+//! connections and UDP datagrams in their order.
+//!
+//! | part | what it does |
+//! | --- | --- |
+//! | `packets` | the file: its blocks, interfaces and times |
+//! | `connections` | TCP: order, repetitions, gaps |
+//!
+//! Sources: draft-ietf-opsawg-pcap (pcap), draft-ietf-opsawg-pcapng (pcapng), RFC 9293 (TCP).
+
+mod connections;
+mod packets;
+
+pub use connections::{Connection, Segment};
+pub use packets::{Fault, Format};
+
+use connections::Connections;
+use etherparse::{EtherType, LaxNetSlice, LaxSlicedPacket, TransportSlice};
+use packets::{Link, Packet, Packets};
+use std::net::{IpAddr, SocketAddr};
+
+/// Reads a capture.
+#[derive(Debug, Default)]
+pub struct Capture {
+    packets: Packets,
+    connections: Connections,
+    tally: Tally,
+}
+
+/// What there was in a capture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Tally {
+    pub packets: usize,
+    /// With bytes that TCP or UDP carried.
+    pub with_payload: usize,
+    /// Neither TCP nor UDP over IP.
+    pub other: usize,
+    /// Cut off by the program that captured them.
+    pub cut: usize,
+}
+
+impl Capture {
+    /// Whether a file that begins so is a capture.
+    pub fn recognises(beginning: &[u8]) -> Option<Format> {
+        Format::of(beginning)
+    }
+
+    /// Takes the next part of the file, and gives what connections carried as soon as it is in
+    /// order.
+    pub fn push(&mut self, part: &[u8], sink: &mut dyn FnMut(Segment<'_>)) -> Result<(), Fault> {
+        let Self { packets, connections, tally } = self;
+        packets.push(part, &mut |packet| read(&packet, connections, tally, sink))
+    }
+
+    /// The file ends: gives what waits behind gaps.
+    pub fn finish(&mut self, sink: &mut dyn FnMut(Segment<'_>)) -> Result<Tally, Fault> {
+        self.connections.finish(sink);
+        self.packets.finish()?;
+        Ok(self.tally)
+    }
+
+    /// The connections so far; [`Segment::connection`] counts them.
+    pub fn connections(&self) -> &[Connection] {
+        self.connections.list()
+    }
+}
+
+/// Takes what a packet carries.
+fn read(
+    packet: &Packet<'_>,
+    connections: &mut Connections,
+    tally: &mut Tally,
+    sink: &mut dyn FnMut(Segment<'_>),
+) {
+    tally.packets += 1;
+    tally.cut += usize::from(packet.cut);
+    let sliced = match packet.link {
+        Link::Ethernet => LaxSlicedPacket::from_ethernet(packet.bytes).ok(),
+        Link::Ip => LaxSlicedPacket::from_ip(packet.bytes).ok(),
+        // A header of its own, at whose end is the type that Ethernet has.
+        Link::Cooked { length, at } => {
+            let kind = packet.bytes.get(at..at + 2).map(|kind| u16::from_be_bytes([kind[0], kind[1]]));
+            let inside = packet.bytes.get(length..);
+            kind.zip(inside).map(|(kind, inside)| LaxSlicedPacket::from_ether_type(EtherType(kind), inside))
+        }
+        Link::Loopback => packet.bytes.get(4..).and_then(|inside| LaxSlicedPacket::from_ip(inside).ok()),
+        Link::Other => None,
+    };
+    let ends = sliced.as_ref().and_then(|sliced| match &sliced.net {
+        Some(LaxNetSlice::Ipv4(ip)) => {
+            let header = ip.header();
+            Some((IpAddr::from(header.source()), IpAddr::from(header.destination())))
+        }
+        Some(LaxNetSlice::Ipv6(ip)) => {
+            let header = ip.header();
+            Some((IpAddr::from(header.source()), IpAddr::from(header.destination())))
+        }
+        _ => None,
+    });
+    let transport = sliced.and_then(|sliced| sliced.transport);
+    match (ends, transport) {
+        (Some((from, to)), Some(TransportSlice::Tcp(tcp))) => {
+            tally.with_payload += usize::from(!tcp.payload().is_empty());
+            let ends =
+                (SocketAddr::new(from, tcp.source_port()), SocketAddr::new(to, tcp.destination_port()));
+            connections.tcp(packet, ends, &tcp, sink);
+        }
+        (Some((from, to)), Some(TransportSlice::Udp(udp))) => {
+            tally.with_payload += usize::from(!udp.payload().is_empty());
+            let ends =
+                (SocketAddr::new(from, udp.source_port()), SocketAddr::new(to, udp.destination_port()));
+            connections.udp(packet, ends, udp.payload(), sink);
+        }
+        _ => tally.other += 1,
+    }
+}

@@ -1,0 +1,230 @@
+use std::fmt::Write as _;
+
+use buslens::field::{Direction, hex};
+use buslens::tool::Options;
+use buslens::tool::log::{Entry, Filter, Log, Reading, Role, Wanted};
+
+use super::generator::Sent;
+
+fn rtu(body: &[u8]) -> Vec<u8> {
+    Sent { direction: Direction::Request, body: body.to_vec() }.rtu()
+}
+
+fn read(text: &str) -> Log {
+    Log::read(text.as_bytes(), &Reading::default(), Options::default()).expect("a log")
+}
+
+fn roles(log: &Log) -> Vec<Role> {
+    log.entries().iter().map(|entry| entry.role).collect()
+}
+
+/// A log of lines with a time in milliseconds, a word and bytes.
+fn log(lines: &[(u64, &str, Vec<u8>)]) -> String {
+    let mut text = String::new();
+    for (time, word, bytes) in lines {
+        let second = 36_000 + time / 1000;
+        writeln!(
+            text,
+            "{:02}:{:02}:{:02}.{:03} {word}: {}",
+            second / 3600 % 24,
+            second / 60 % 60,
+            second % 60,
+            time % 1000,
+            hex(bytes)
+        )
+        .unwrap();
+    }
+    text
+}
+
+fn ask(unit: u8) -> Vec<u8> {
+    rtu(&[unit, 3, 0, 200, 0, 1])
+}
+
+fn answer(unit: u8) -> Vec<u8> {
+    rtu(&[unit, 3, 2, 0, 7])
+}
+
+#[test]
+fn retries_late_and_unasked_answers() {
+    let log = read(&log(&[
+        (0, "Tx", ask(5)),
+        (500, "Tx", ask(5)),
+        (520, "Rx", answer(5)),
+        (600, "Rx", answer(5)),
+        (700, "Tx", ask(6)),
+        (900, "Tx", ask(7)),
+        (910, "Rx", answer(6)),
+        (915, "Rx", answer(7)),
+        (950, "Tx", rtu(&[0, 6, 0, 1, 0, 2])),
+    ]));
+    use Role::{Broadcast, Late, Plain, Retry, Unasked};
+    assert_eq!(roles(&log), [Plain, Retry, Plain, Unasked, Plain, Plain, Late, Plain, Broadcast]);
+    let partners: Vec<_> = log.entries().iter().map(Entry::partner).collect();
+    assert_eq!(partners, [None, Some(2), Some(1), None, Some(6), Some(7), Some(4), Some(5), None]);
+    assert_eq!(log.latency(&log.entries()[2]), Some(20_000));
+    let all = log.statistics();
+    assert_eq!((all.unanswered, all.retries, all.unasked, all.late, all.broadcasts), (1, 1, 1, 1, 1));
+}
+
+#[test]
+fn polls_of_a_silent_unit_are_no_retries() {
+    let mut lines = Vec::new();
+    for n in 0..300 {
+        lines.push((n * 100, "Tx", ask(5)));
+        lines.push((n * 100 + 20, "Rx", answer(5)));
+        lines.push((n * 100 + 50, "Tx", ask(9)));
+        if !(100..120).contains(&n) {
+            lines.push((n * 100 + 80, "Rx", answer(9)));
+        }
+    }
+    let log = read(&log(&lines));
+    let story: Vec<String> = log.story().iter().map(ToString::to_string).collect();
+    assert_eq!(
+        story[1],
+        "Unit 9 answered 280 of 300 requests; 20 unanswered, most between 10:00:10.050 and 10:00:11.750",
+        "{story:#?}"
+    );
+    assert_eq!(story[2], "Unit 5 answered all 300 requests");
+    let dialog = log.statistics().dialogs[0];
+    assert_eq!((dialog.median, dialog.worst), (Some(20_000), Some(20_000)));
+}
+
+#[test]
+fn echoes_are_told_from_retries_and_from_answers() {
+    let mut lines = Vec::new();
+    let writes = rtu(&[5, 6, 0, 1, 0, 2]);
+    for n in 0..20 {
+        lines.extend([(n * 100, "Tx", ask(5)), (n * 100 + 2, "Rx", ask(5)), (n * 100 + 20, "Rx", answer(5))]);
+        // Request, echo and response of function 6 are the same.
+        lines.extend([
+            (n * 100 + 40, "Tx", writes.clone()),
+            (n * 100 + 42, "Rx", writes.clone()),
+            (n * 100 + 60, "Rx", writes.clone()),
+        ]);
+    }
+    let log = read(&log(&lines));
+    use Role::{Echo, Plain};
+    for part in roles(&log).chunks(3) {
+        assert_eq!(part, [Plain, Echo, Plain]);
+    }
+    let all = log.statistics();
+    assert_eq!((all.pairs, all.echoes, all.unanswered), (40, 40, 0));
+}
+
+#[test]
+fn lines_and_connections_are_parted() {
+    let mut text = String::new();
+    for n in 0..10 {
+        writeln!(text, "COM3 Tx {}\nCOM5 Tx {}", hex(&ask(1)), hex(&ask(1))).unwrap();
+        writeln!(text, "COM5 Rx {}", hex(&answer(1))).unwrap();
+        if n > 0 {
+            writeln!(text, "COM3 Rx {}", hex(&answer(1))).unwrap();
+        }
+    }
+    let log = read(&text);
+    let ports: Vec<_> = log
+        .statistics()
+        .dialogs
+        .iter()
+        .map(|it| (log.port_name(it.port).unwrap(), it.answered, it.unanswered))
+        .collect();
+    assert_eq!(ports, [("COM3".to_owned(), 9, 1), ("COM5".to_owned(), 10, 0)]);
+}
+
+#[test]
+fn over_tcp_several_requests_wait() {
+    let frame = |transaction: u16, body: &[u8]| {
+        Sent { direction: Direction::Request, body: body.to_vec() }.tcp(transaction)
+    };
+    let text = log(&[
+        (0, "send", frame(1, &[1, 3, 0, 1, 0, 1])),
+        (1, "send", frame(2, &[1, 3, 0, 2, 0, 1])),
+        (5, "recv", frame(2, &[1, 3, 2, 0, 2])),
+        (9, "recv", frame(1, &[1, 3, 2, 0, 1])),
+    ]);
+    let log = read(&text);
+    let partners: Vec<_> = log.entries().iter().map(Entry::partner).collect();
+    assert_eq!(partners, [Some(3), Some(2), Some(1), Some(0)]);
+    assert_eq!(roles(&log), [Role::Plain; 4]);
+}
+
+#[test]
+fn midnight_is_passed() {
+    let text = format!("23:59:59.990 Tx {}\n00:00:00.010 Rx {}\n", hex(&ask(1)), hex(&answer(1)));
+    let log = read(&text);
+    assert_eq!(log.latency(&log.entries()[1]), Some(20_000));
+}
+
+/// The writer of the log is the server: what it received are requests.
+#[test]
+fn who_is_who_is_told_by_the_telegrams() {
+    let writes = rtu(&[5, 6, 0, 1, 0, 2]);
+    let text = log(&[
+        (0, "Rx", ask(5)),
+        (5, "Tx", answer(5)),
+        (10, "Rx", writes.clone()),
+        (15, "Tx", writes.clone()),
+    ]);
+    let directions: Vec<_> = read(&text).entries().iter().map(|entry| entry.direction).collect();
+    use Direction::{Request, Response};
+    assert_eq!(directions, [Request, Response, Request, Response]);
+}
+
+#[test]
+fn filters_choose() {
+    let mut lines = Vec::new();
+    for n in 0..50_u8 {
+        let broken = n == 30;
+        lines.push((u64::from(n) * 100, "Tx", rtu(&[5, 3, 0, n, 0, 2])));
+        let mut bytes = rtu(&[5, 3, 4, 0, n, 1, 2]);
+        bytes[4] ^= u8::from(broken);
+        lines.push((u64::from(n) * 100 + 10, "Rx", bytes));
+    }
+    let text = log(&lines).replace("10:00:02.000 Tx", "10:00:02.000 fan on Tx");
+    let log = read(&text);
+    let source = text.as_bytes();
+    let count = |filter: Filter| log.filtered(&filter, &source, source.len() as u64).len();
+    let all = Filter::default;
+    assert_eq!(count(all()), 100);
+    assert_eq!(count(Filter { wanted: Wanted::CheckFailed, ..all() }), 1);
+    assert_eq!(count(Filter { unit: Some(6), ..all() }), 0);
+    assert_eq!(count(Filter { direction: Some(Direction::Response), ..all() }), 50);
+    let second = 1_000_000;
+    assert_eq!(count(Filter { times: Some((36_001 * second, 36_002 * second - 1)), ..all() }), 20);
+    // A register is in two requests and their answers; bytes are found in any telegram.
+    assert_eq!(count(Filter { text: "7".into(), ..all() }), 4);
+    assert_eq!(count(Filter { text: "05 03 00 07".into(), ..all() }), 1);
+    assert_eq!(count(Filter { text: "fan on".into(), ..all() }), 1);
+    let timeline = log.timeline(None, 10);
+    assert_eq!(timeline.buckets.iter().map(|bucket| bucket.telegrams).sum::<u32>(), 100);
+    assert_eq!(timeline.buckets.iter().map(|bucket| bucket.errors).sum::<u32>(), 1);
+    let values: Vec<f64> = log.series(&source, Some(5), 7, 100).iter().map(|point| point.value).collect();
+    assert_eq!(values, [258.0, 7.0]);
+}
+
+#[test]
+fn writes_in_a_log_teach_later_reads() {
+    // Register 0 of the F5's process data is what its mapping list says.
+    let profile = buslens::tool::Profile::of("keb-f5-modbus").expect("listed");
+    let lesson = &profile.lessons[0];
+    let [high, low] = lesson.from.to_be_bytes();
+    let write = rtu(&[1, 6, high, low, 2, 3]);
+    let later = rtu(&[1, 3, 0, 200, 0, 1]);
+    let text = log(&[
+        (0, "Tx", write.clone()),
+        (5, "Rx", write),
+        (10, "Tx", later),
+        (15, "Rx", rtu(&[1, 3, 2, 0, 1])),
+    ]);
+    let options = Options { device: Some(profile), ..Options::default() };
+    let log = Log::read(text.as_bytes(), &Reading::default(), options.clone()).unwrap();
+    let source = text.as_bytes();
+    // The last telegram by itself is read as in the whole log.
+    let whole = log.whole_report(&source);
+    let alone = log.report(&source, &[2, 3]);
+    assert_eq!(
+        format!("{:?}", whole.detail(3).unwrap().device),
+        format!("{:?}", alone.detail(1).unwrap().device)
+    );
+}

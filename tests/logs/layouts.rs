@@ -1,0 +1,517 @@
+use std::fmt::Write as _;
+
+use buslens::field::{Direction, hex};
+use buslens::text::log::{LAYOUTS, Layout, recognise};
+use buslens::tool::log::{Log, Reading, Source};
+use buslens::tool::{Options, Report, decode_file};
+
+use super::generator::{Random, Sent, exchanges};
+
+/// How a program writes telegrams.
+struct Program {
+    /// The key of the layout, where it is one of those known by name.
+    layout: &'static str,
+    frame: fn(&Sent, usize) -> Vec<u8>,
+    /// One telegram; the number counts them.
+    write: fn(&mut String, &[u8], bool, usize),
+}
+
+fn rtu(sent: &Sent, _: usize) -> Vec<u8> {
+    sent.rtu()
+}
+
+fn tcp(sent: &Sent, n: usize) -> Vec<u8> {
+    sent.tcp(n as u16 / 2 + 1)
+}
+
+fn joined(bytes: &[u8], separator: &str, write: fn(u8) -> String) -> String {
+    bytes.iter().map(|byte| write(*byte)).collect::<Vec<_>>().join(separator)
+}
+
+fn upper(byte: u8) -> String {
+    format!("{byte:02X}")
+}
+
+fn lower(byte: u8) -> String {
+    format!("{byte:02x}")
+}
+
+fn clock(n: usize) -> String {
+    format!("{:02}:{:02}:{:02}", 9 + n / 3600, n / 60 % 60, n % 60)
+}
+
+fn rows(text: &mut String, bytes: &[u8], offset: Option<usize>, width: usize) {
+    for (row, part) in bytes.chunks(16).enumerate() {
+        if let Some(width) = offset {
+            write!(text, "{:0width$x}   ", row * 16).unwrap();
+        } else {
+            text.push_str("    ");
+        }
+        let shown: String = part
+            .iter()
+            .map(|byte| if matches!(byte, b' '..=b'~') { char::from(*byte) } else { '.' })
+            .collect();
+        writeln!(text, "{:width$}   {shown}", joined(part, " ", lower)).unwrap();
+    }
+}
+
+/// The layouts known by name, and others that resemble none of them.
+static PROGRAMS: &[Program] = &[
+    Program {
+        layout: "raw-request",
+        frame: rtu,
+        write: |text, bytes, asks, _| {
+            let list = joined(bytes, ", ", |byte| format!("0x{byte:02X}"));
+            let words = if asks { "Raw Request >>>" } else { "Raw Response <<<" };
+            writeln!(text, "{words} {{{list}}}").unwrap();
+        },
+    },
+    Program {
+        layout: "esphome-modbus",
+        frame: rtu,
+        write: |text, bytes, asks, n| {
+            let word = if asks { "write" } else { "recv" };
+            let list = joined(bytes, ".", upper);
+            writeln!(text, "[{}][V][modbus:199]: Modbus {word}: {list} ({})", clock(n), bytes.len()).unwrap();
+        },
+    },
+    Program {
+        layout: "esphome-uart",
+        frame: rtu,
+        write: |text, bytes, asks, n| {
+            let arrow = if asks { ">>>" } else { "<<<" };
+            writeln!(text, "[{}][D][uart_debug:158]: {arrow} {}", clock(n), joined(bytes, ":", upper))
+                .unwrap();
+        },
+    },
+    Program {
+        layout: "libmodbus",
+        frame: rtu,
+        write: |text, bytes, asks, _| {
+            if asks {
+                writeln!(text, "[{}]\nWaiting for a confirmation...", joined(bytes, "][", upper)).unwrap();
+            } else {
+                writeln!(text, "<{}>", joined(bytes, "><", upper)).unwrap();
+            }
+        },
+    },
+    Program {
+        layout: "minimalmodbus",
+        frame: rtu,
+        write: |text, bytes, asks, _| {
+            let list = joined(bytes, " ", upper);
+            let count = bytes.len();
+            if asks {
+                writeln!(text, "MinimalModbus debug mode. Will write to instrument (expecting 9 bytes back): {list} ({count} bytes)").unwrap();
+            } else {
+                writeln!(text, "MinimalModbus debug mode. Response from instrument: {list} ({count} bytes), roundtrip time: 8.4 ms. Timeout for reading: 50.0 ms.").unwrap();
+            }
+        },
+    },
+    Program {
+        layout: "modbus-ascii",
+        frame: |sent, _| sent.ascii(),
+        write: |text, bytes, _, _| writeln!(text, ":{}", joined(bytes, "", upper)).unwrap(),
+    },
+    Program {
+        layout: "modbus-poll",
+        frame: rtu,
+        write: |text, bytes, asks, n| {
+            writeln!(text, "{n:06}-{}:{}", if asks { "Tx" } else { "Rx" }, joined(bytes, " ", upper))
+                .unwrap();
+        },
+    },
+    Program {
+        layout: "modbus-tk",
+        frame: tcp,
+        write: |text, bytes, asks, _| {
+            let arrow = if asks { "->" } else { "<-" };
+            writeln!(text, "DEBUG:modbus_tk:{arrow} {}", joined(bytes, "-", lower)).unwrap();
+        },
+    },
+    Program {
+        layout: "nmodbus",
+        frame: rtu,
+        write: |text, bytes, asks, _| {
+            let list = joined(bytes, ", ", |byte| byte.to_string());
+            writeln!(
+                text,
+                "DEBUG Modbus.IO.ModbusSerialTransport - {}: {list}",
+                if asks { "TX" } else { "RX" }
+            )
+            .unwrap();
+        },
+    },
+    Program { layout: "", frame: rtu, write: |text, bytes, _, _| writeln!(text, "{}", hex(bytes)).unwrap() },
+    Program {
+        layout: "",
+        frame: rtu,
+        write: |text, bytes, _, _| writeln!(text, "{}", joined(bytes, "", lower)).unwrap(),
+    },
+    Program {
+        layout: "pymodbus",
+        frame: rtu,
+        write: |text, bytes, asks, n| {
+            let list = joined(bytes, " ", |byte| format!("{byte:#x}"));
+            let word = if asks { "SEND" } else { "RECV" };
+            writeln!(
+                text,
+                "2026-04-01 {}.{:03} DEBUG (Worker_2) [pymodbus.transaction] {word}: {list}",
+                clock(n),
+                n % 1000
+            )
+            .unwrap();
+        },
+    },
+    Program {
+        layout: "pymodbus",
+        frame: tcp,
+        write: |text, bytes, asks, n| {
+            let list = joined(bytes, " ", |byte| format!("{byte:#x}"));
+            let tail = if asks { "" } else { " old_data:  addr=None" };
+            let word = if asks { "send" } else { "recv" };
+            writeln!(
+                text,
+                "2026-04-01 {}.120 DEBUG (MainThread) [pymodbus.logging] {word}: {list}{tail}",
+                clock(n)
+            )
+            .unwrap();
+        },
+    },
+    Program {
+        layout: "qmodmaster",
+        frame: rtu,
+        write: |text, bytes, asks, n| {
+            let word = if asks { "Tx" } else { "Rx" };
+            writeln!(text, "[RTU]>{word} > {}:{:03} - {}  ", clock(n), n % 1000, joined(bytes, "  ", upper))
+                .unwrap();
+        },
+    },
+    Program {
+        layout: "rust-debug",
+        frame: rtu,
+        write: |text, bytes, asks, n| {
+            let word = if asks { "tx" } else { "rx" };
+            writeln!(text, "[2026-04-01T{}Z TRACE line] {word} [{}]", clock(n), joined(bytes, ", ", upper))
+                .unwrap();
+        },
+    },
+    Program {
+        layout: "serial-port-monitor",
+        frame: rtu,
+        write: |text, bytes, asks, n| {
+            writeln!(text, "[01/04/2026 {}] {} data (COM3)", clock(n), if asks { "Written" } else { "Read" })
+                .unwrap();
+            rows(text, bytes, None, 47);
+            text.push('\n');
+        },
+    },
+    Program {
+        layout: "wireshark",
+        frame: tcp,
+        write: |text, bytes, _, _| {
+            rows(text, bytes, Some(4), 47);
+            text.push('\n');
+        },
+    },
+    // From here on: nobody's.
+    Program {
+        layout: "",
+        frame: rtu,
+        write: |text, bytes, asks, n| {
+            let way = if asks {
+                "192.168.0.10:49152 -> 10.0.0.7:4001"
+            } else {
+                "10.0.0.7:4001 -> 192.168.0.10:49152"
+            };
+            let word = if asks { "request" } else { "response" };
+            writeln!(
+                text,
+                "#{n} {} [thread-7] INFO {way} {word} len={} data={}",
+                clock(n),
+                bytes.len(),
+                joined(bytes, " ", lower)
+            )
+            .unwrap();
+        },
+    },
+    Program {
+        layout: "",
+        frame: rtu,
+        write: |text, bytes, asks, n| {
+            writeln!(
+                text,
+                "{}.{:06} {} {}: {}",
+                1_775_000_000 + n,
+                n,
+                bytes.len(),
+                if asks { "OUT" } else { "IN" },
+                joined(bytes, "-", upper)
+            )
+            .unwrap();
+        },
+    },
+    Program {
+        layout: "",
+        frame: rtu,
+        write: |text, bytes, asks, _| {
+            let escapes: String = bytes.iter().map(|byte| format!("\\x{byte:02x}")).collect();
+            writeln!(text, "{} b'{escapes}'", if asks { "write" } else { "read" }).unwrap();
+        },
+    },
+    Program {
+        layout: "",
+        frame: rtu,
+        write: |text, bytes, asks, n| {
+            writeln!(
+                text,
+                "{};{};{};ok",
+                clock(n),
+                if asks { "master" } else { "slave" },
+                joined(bytes, " ", |byte| format!("{byte:02X}h"))
+            )
+            .unwrap();
+        },
+    },
+    Program {
+        layout: "",
+        frame: rtu,
+        write: |text, bytes, asks, n| {
+            writeln!(
+                text,
+                "{} ({}) at {}",
+                joined(bytes, " ", upper),
+                if asks { "sent" } else { "received" },
+                clock(n)
+            )
+            .unwrap();
+        },
+    },
+    Program {
+        layout: "",
+        frame: rtu,
+        write: |text, bytes, asks, n| {
+            writeln!(
+                text,
+                "{} {}\n{}",
+                if asks { "Request at" } else { "Response at" },
+                clock(n),
+                hex(bytes)
+            )
+            .unwrap();
+        },
+    },
+    Program {
+        layout: "",
+        frame: rtu,
+        write: |text, bytes, asks, _| {
+            // In chunks, as a port gives them.
+            for part in bytes.chunks(8) {
+                writeln!(text, "{} {}", if asks { "TX" } else { "RX" }, joined(part, " ", upper)).unwrap();
+            }
+        },
+    },
+];
+
+/// The log of a program, and the telegrams in it.
+fn log(program: &Program, seed: u64) -> (String, Vec<(Vec<u8>, Direction)>) {
+    let mut text = String::new();
+    let mut truth = Vec::new();
+    for (n, sent) in exchanges(seed, 60).iter().enumerate() {
+        let bytes = (program.frame)(sent, n);
+        (program.write)(&mut text, &bytes, sent.direction == Direction::Request, n);
+        truth.push((bytes, sent.direction));
+    }
+    (text, truth)
+}
+
+fn read(file: &[u8]) -> Report {
+    decode_file(file, &Reading::default(), Options::default()).expect("a log")
+}
+
+fn found(report: &Report) -> Vec<(Vec<u8>, Direction)> {
+    report.telegrams.iter().map(|telegram| (telegram.line.bytes.clone(), telegram.guess.direction)).collect()
+}
+
+#[track_caller]
+fn assert_found(text: &[u8], truth: &[(Vec<u8>, Direction)], what: &str) {
+    let report = read(text);
+    let found = found(&report);
+    for (index, (found, truth)) in found.iter().zip(truth).enumerate() {
+        assert_eq!((hex(&found.0), found.1), (hex(&truth.0), truth.1), "{what}, telegram {index}");
+    }
+    assert_eq!(found.len(), truth.len(), "{what}");
+}
+
+#[test]
+fn every_layout_gives_its_truth() {
+    for (index, program) in PROGRAMS.iter().enumerate() {
+        for seed in 0..4 {
+            let (text, truth) = log(program, seed);
+            assert_found(text.as_bytes(), &truth, &format!("layout {index}, seed {seed}"));
+            let known = recognise(text.as_bytes()).layout.map_or("", |layout| layout.key);
+            assert_eq!(known, program.layout, "layout {index}");
+        }
+    }
+}
+
+#[test]
+fn line_ends_prose_and_encodings_change_nothing() {
+    const PROSE: [&str; 5] = [
+        "Operator restarted pump 4, ticket 20260401 is open.",
+        "please ask them to send the answer again",
+        "",
+        "setpoint 50 % from 12:30 on, all 4 units fine",
+        "--- second page ---",
+    ];
+    for (index, program) in PROGRAMS.iter().enumerate() {
+        let (text, truth) = log(program, 7);
+        let mut random = Random(index as u64);
+        let with_prose: String = text
+            .lines()
+            .flat_map(|line| {
+                let prose = if random.below(3) == 0 { Some(random.of(&PROSE)) } else { None };
+                std::iter::once(line).chain(prose)
+            })
+            .flat_map(|line| [line, "\n"])
+            .collect();
+        assert_found(with_prose.as_bytes(), &truth, &format!("prose in layout {index}"));
+        assert_found(text.replace('\n', "\r\n").as_bytes(), &truth, &format!("CR LF in layout {index}"));
+        assert_found(text.replace('\n', "\r").as_bytes(), &truth, &format!("CR in layout {index}"));
+        let wide: Vec<u8> = format!("\u{FEFF}{text}").encode_utf16().flat_map(u16::to_le_bytes).collect();
+        assert_found(&wide, &truth, &format!("UTF-16 of layout {index}"));
+    }
+}
+
+/// What is left of a log when lines are lost is found exactly.
+#[test]
+fn lost_lines_take_only_their_own_telegrams() {
+    for (index, program) in PROGRAMS.iter().enumerate() {
+        let mut random = Random(index as u64 + 100);
+        let (mut text, mut truth) = (String::new(), Vec::new());
+        for (n, sent) in exchanges(11, 60).iter().enumerate() {
+            if random.below(5) > 0 {
+                let bytes = (program.frame)(sent, n);
+                (program.write)(&mut text, &bytes, sent.direction == Direction::Request, n);
+                truth.push(hex(&bytes));
+            }
+        }
+        let found = read(text.as_bytes()).telegrams.into_iter();
+        let found: Vec<String> = found.map(|telegram| hex(&telegram.line.bytes)).collect();
+        assert_eq!(found, truth, "layout {index}");
+    }
+}
+
+#[test]
+fn pieces_of_any_size_give_the_same() {
+    for (index, program) in PROGRAMS.iter().enumerate() {
+        let (text, _) = log(program, 3);
+        let whole = Log::read(text.as_bytes(), &Reading::default(), Options::default()).unwrap();
+        for size in [1, 7, 4096] {
+            let mut log =
+                Log::open(text.as_bytes(), text.len() as u64, &Reading::default(), Options::default())
+                    .unwrap();
+            text.as_bytes().chunks(size).for_each(|part| assert!(log.push(part)));
+            log.finish();
+            assert_eq!(log.entries(), whole.entries(), "layout {index} in pieces of {size}");
+        }
+    }
+}
+
+/// The places of a telegram's bytes are its digits.
+#[test]
+fn each_byte_knows_its_place_in_the_log() {
+    for (index, program) in PROGRAMS.iter().enumerate() {
+        let (text, _) = log(program, 5);
+        let log = Log::read(text.as_bytes(), &Reading::default(), Options::default()).unwrap();
+        let report = log.whole_report(&text.as_bytes());
+        for telegram in &report.telegrams {
+            let line = &telegram.line;
+            assert_eq!(line.places.len(), line.bytes.len(), "layout {index}");
+            for (place, byte) in line.places.iter().zip(&line.bytes) {
+                let digits = &text[place.from..place.to];
+                let plain = digits.trim_start_matches("0x").trim_start_matches("\\x").trim_end_matches('h');
+                let value = match program.layout {
+                    "nmodbus" => plain.parse().ok(),
+                    _ => u8::from_str_radix(plain, 16).ok(),
+                };
+                // A string is one place for all of its bytes, each character one.
+                assert!(
+                    value == Some(*byte) || digits.len() == 1,
+                    "layout {index}: {digits:?} for {byte:02X}"
+                );
+            }
+        }
+    }
+}
+
+/// Dumps without anything between the telegrams: xxd, `hexdump -C`, od.
+#[test]
+fn dumps_of_a_stream_are_split() {
+    let truth: Vec<(Vec<u8>, Direction)> =
+        exchanges(21, 60).iter().map(|sent| (sent.rtu(), sent.direction)).collect();
+    let stream: Vec<u8> = truth.iter().flat_map(|(bytes, _)| bytes.clone()).collect();
+    let shown = |part: &[u8]| -> String {
+        part.iter().map(|byte| if matches!(byte, b' '..=b'~') { char::from(*byte) } else { '.' }).collect()
+    };
+    let mut dumps = vec![String::new(); 4];
+    for (row, part) in stream.chunks(16).enumerate() {
+        let at = row * 16;
+        let pairs: Vec<String> = part.chunks(2).map(|pair| joined(pair, "", lower)).collect();
+        writeln!(dumps[0], "{at:08x}: {:39}  {}", pairs.join(" "), shown(part)).unwrap();
+        let halves: Vec<String> = part.chunks(8).map(|half| joined(half, " ", lower)).collect();
+        writeln!(dumps[1], "{at:08x}  {:48}  |{}|", halves.join("  "), shown(part)).unwrap();
+        writeln!(dumps[2], "{at:07o} {}", joined(part, " ", lower)).unwrap();
+        if part.len() == 16 {
+            let words: Vec<String> =
+                part.chunks(2).map(|pair| format!("{:02x}{:02x}", pair[1], pair[0])).collect();
+            writeln!(dumps[3], "{at:07x} {}", words.join(" ")).unwrap();
+        }
+    }
+    for (dump, text) in dumps.iter().enumerate().take(3) {
+        assert_found(text.as_bytes(), &truth, &format!("dump {dump}"));
+    }
+    // Words with the low byte first; the last row is left out, since it may have half a word.
+    let found = found(&read(dumps[3].as_bytes()));
+    assert_eq!(found[..truth.len() - 4], truth[..truth.len() - 4]);
+    // The stream itself, and all of it in one line.
+    let binary = Reading { input: buslens::tool::log::Input::Binary, ..Reading::default() };
+    let report = decode_file(&stream, &binary, Options::default()).unwrap();
+    assert_eq!(self::found(&report), truth);
+    assert_found(hex(&stream).as_bytes(), &truth, "one line");
+}
+
+#[test]
+fn several_telegrams_in_a_line_and_one_printed_twice() {
+    let truth: Vec<(Vec<u8>, Direction)> =
+        exchanges(31, 30).iter().map(|it| (it.rtu(), it.direction)).collect();
+    let mut text = String::new();
+    for pair in truth.chunks(2) {
+        writeln!(text, "poll: TX {} RX {}", hex(&pair[0].0), hex(&pair[1].0)).unwrap();
+    }
+    assert_found(text.as_bytes(), &truth, "a line for each exchange");
+    let mut text = String::new();
+    for (bytes, direction) in &truth {
+        let word = if *direction == Direction::Request { "send" } else { "recv" };
+        writeln!(text, "09:00:00.100 {word} {}\n09:00:00.100 framer {word} {}", hex(bytes), hex(bytes))
+            .unwrap();
+    }
+    assert_found(text.as_bytes(), &truth, "each twice");
+}
+
+#[test]
+fn every_layout_is_tried() {
+    let tried = |layout: &Layout| {
+        PROGRAMS.iter().any(|program| program.layout == layout.key)
+            || matches!(layout.key, "xxd" | "hexdump" | "od")
+    };
+    assert!(LAYOUTS.iter().all(tried));
+}
+
+/// Half a page of a source can be read again at any place.
+#[test]
+fn a_source_gives_what_is_there() {
+    let text: &[u8] = b"01 03";
+    assert_eq!(text.read(3, 10), b"03");
+    assert_eq!(text.read(9, 10), b"");
+}

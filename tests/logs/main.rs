@@ -1,0 +1,7 @@
+//! Logs of every layout give exactly the telegrams that were written into them.
+
+mod bad_files;
+mod conversations;
+mod generator;
+mod layouts;
+mod noise;
