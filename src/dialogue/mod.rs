@@ -9,7 +9,7 @@ pub mod traffic;
 mod turns;
 
 pub use guess::{Certainty, Guess, direction};
-pub use hypothesis::{Cause, Hypothesis, hypotheses};
+pub use hypothesis::{Cause, Context, Hypothesis, chance_of_change, hypotheses};
 pub use pair::Pairing;
 pub use protocol::{Candidate, Choice, protocols};
 pub use turns::{leaning, told, turns};

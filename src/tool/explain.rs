@@ -1,7 +1,8 @@
-use super::decode::Report;
-use crate::dialogue::{self, Certainty, Guess, Hypothesis, hypotheses};
-use crate::field::{self, Message};
+use super::decode::{Options, Report};
+use crate::dialogue::{self, Certainty, Context, Guess, Hypothesis, chance_of_change, hypotheses};
+use crate::field::{self, Message, Span};
 use crate::frame::{Speaker, Verdict, modbus_rtu};
+use crate::message;
 use crate::walk;
 
 /// What may have happened to a telegram whose check does not match.
@@ -10,27 +11,50 @@ pub struct Explanation {
     pub hypothesis: Hypothesis,
     /// How many things would still be wrong with the telegram.
     pub problems: usize,
+    /// Whether the content fits what the device's manual says.
+    pub known: bool,
     /// What the telegram would then say.
     pub said: Message,
+    /// The bytes of the telegram as it came that are changed or too much.
+    pub removed: Vec<Span>,
+    /// The bytes of the corrected telegram that are changed or were missing.
+    pub added: Vec<Span>,
+}
+
+impl Explanation {
+    /// Why it makes sense, or what speaks against it.
+    pub fn sense(&self) -> Message {
+        match (self.problems, self.known) {
+            (0, true) => message!("byte count and length fit, and the device knows these registers"),
+            (0, false) => message!("byte count and length fit"),
+            (problems, _) => message!("{n} would still be wrong", n = field::count(problems, "thing")),
+        }
+    }
 }
 
 /// More are not worth reading.
-const MOST: usize = 8;
+const MOST: usize = 10;
 
 impl Report {
     /// What may have happened to telegram `index`, best first: what leaves nothing wrong before what
-    /// does, and what fits less often by chance before what fits more often. Empty where the check
-    /// is right. Modbus RTU so far.
+    /// does; then by how often such a thing happens and in how many ways it could have. Empty where
+    /// the check is right, or where there is none.
     pub fn explanations(&self, index: usize) -> Vec<Explanation> {
-        let Some(telegram) = self.telegrams.get(index) else { return Vec::new() };
-        let rtu = std::ptr::eq(telegram.choice.protocol, &raw const modbus_rtu::PROTOCOL);
-        if !rtu || telegram.verdict != Verdict::Wrong {
+        let Some(telegram) = self.telegrams.get(index).filter(|it| it.verdict == Verdict::Wrong) else {
             return Vec::new();
-        }
+        };
+        let bytes_of = |index: usize| self.telegrams[index].line.bytes.as_slice();
+        let before = telegram.answers.or(index.checked_sub(1)).map(bytes_of);
+        let others = self.neighbours(index);
+        let context = Context { request: before, others: &others };
         let mut found: Vec<Explanation> = Vec::new();
-        for hypothesis in hypotheses(&telegram.line.bytes) {
+        for hypothesis in hypotheses(&telegram.line.bytes, telegram.choice.protocol, context) {
             let explanation = self.explain(index, hypothesis);
-            let rank = |one: &Explanation| (one.problems, one.hypothesis.tries.unwrap_or(usize::MAX));
+            let rank = |one: &Explanation| {
+                // Where nothing else is wrong, a device that knows the registers says more than chance.
+                let known = if one.known { 0 } else { 3 };
+                (one.problems, one.hypothesis.bits() + known)
+            };
             let at = found.partition_point(|other| rank(other) <= rank(&explanation));
             if at < MOST {
                 found.insert(at, explanation);
@@ -40,30 +64,89 @@ impl Report {
         found
     }
 
+    /// Why it cannot be told what happened to telegram `index`, if that is so: on long telegrams a
+    /// change of some byte fits by chance.
+    pub fn undecidable(&self, index: usize) -> Option<Message> {
+        /// From so many chance fits on, one that is found says nothing.
+        const MANY: f64 = 0.5;
+        let telegram = self.telegrams.get(index).filter(|it| it.verdict == Verdict::Wrong)?;
+        let length = telegram.line.bytes.len();
+        if !std::ptr::eq(telegram.choice.protocol, &raw const modbus_rtu::PROTOCOL) {
+            return Some(message!(
+                "a check of one byte is right by chance once in 256: it cannot be told which byte is wrong"
+            ));
+        }
+        let chance = chance_of_change(length);
+        (chance >= MANY).then(|| {
+            message!(
+                "it cannot be told which: on {n}, some change of a single byte fits by chance {percent} times in 100",
+                n = Message::bytes(length),
+                percent = (100.0 * (1.0 - (-chance).exp())).round() as usize
+            )
+        })
+    }
+
+    /// Other telegrams near telegram `index`, whose checks may have been copied.
+    fn neighbours(&self, index: usize) -> Vec<&[u8]> {
+        const NEAR: usize = 100;
+        let near = index.saturating_sub(NEAR)..(index + NEAR).min(self.telegrams.len());
+        let others = near.filter(|other| *other != index).map(|other| &self.telegrams[other]);
+        others
+            .filter(|other| other.verdict == Verdict::Right)
+            .map(|other| other.line.bytes.as_slice())
+            .collect()
+    }
+
+    /// Whether the device knows the registers of a hypothesis, and how much is wrong with them.
+    fn known(&self, index: usize, hypothesis: &Hypothesis, guess: &Guess) -> (bool, usize) {
+        if self.options.device.is_none() {
+            return (false, 0);
+        }
+        let mut telegram = self.telegrams[index].clone();
+        telegram.line.bytes.clone_from(&hypothesis.bytes);
+        telegram.guess = guess.clone();
+        let request = telegram.answers.map(|request| self.telegrams[request].clone());
+        telegram.answers = request.as_ref().map(|_| 0);
+        let telegrams: Vec<_> = request.into_iter().chain([telegram]).collect();
+        let options = Options { settings: self.settings(index).clone(), ..self.options.clone() };
+        let alone = Self::of(telegrams, options);
+        let device = alone.detail(alone.telegrams.len() - 1).map(|detail| detail.device).unwrap_or_default();
+        (!device.blocks.is_empty() && device.problems.is_empty(), device.problems.len())
+    }
+
     /// Reads a hypothesis as what it would be.
     fn explain(&self, index: usize, hypothesis: Hypothesis) -> Explanation {
         let telegram = &self.telegrams[index];
-        let protocol = telegram.choice.protocol;
+        let protocol = hypothesis.protocol.unwrap_or(telegram.choice.protocol);
         let bytes = &hypothesis.bytes;
-        let settings = &self.settings(index).frame;
+        let settings = self.settings(index);
         let guess = match protocol.speaker {
-            Speaker::Pdu(inside) if telegram.guess.certainty != Certainty::Certain => {
+            Speaker::Pdu(inside)
+                if telegram.guess.certainty != Certainty::Certain || hypothesis.protocol.is_some() =>
+            {
                 let (pdu, around) = inside(bytes);
-                dialogue::direction(pdu, around, telegram.answers.is_some(), settings.dialect)
+                dialogue::direction(pdu, around, telegram.answers.is_some(), settings.frame.dialect)
             }
             _ => Guess { ..telegram.guess.clone() },
         };
-        let mut frame = (protocol.expect)(bytes, guess.direction, settings);
+        let mut frame = (protocol.expect)(bytes, guess.direction, &settings.frame);
+        let mut strange = 0;
         if let Some(request) = telegram.answers {
             let (asked, _) = self.read(request);
             frame.answer(&asked.content());
+            strange = usize::from(
+                (protocol.exchange)(bytes) != (protocol.exchange)(&self.telegrams[request].line.bytes),
+            );
         }
         let fields = walk::read(frame.as_mut(), bytes).fields;
-        let mut problems = field::problems(&fields).len();
+        let mut problems = field::problems(&fields).len() + strange;
         // Nobody knows such a function, or its length fits neither direction.
         if guess.certainty != Certainty::Certain && telegram.guess.certainty != guess.certainty {
             problems += 1;
         }
-        Explanation { problems, said: frame.meaning(), hypothesis }
+        let (known, wrong) = self.known(index, &hypothesis, &guess);
+        problems += wrong;
+        let (removed, added) = hypothesis.difference(&telegram.line.bytes);
+        Explanation { problems, known, said: frame.meaning(), removed, added, hypothesis }
     }
 }
