@@ -122,7 +122,7 @@ pub fn read_file(event: &Event, then: impl FnOnce(String, String) + 'static) {
     let Some(file) = file(event) else { return };
     let field = event.target().and_then(|target| target.dyn_into::<HtmlInputElement>().ok());
     if file.size() > LONGEST {
-        say(&format!("{} has more than 5 MB, which the page does not read yet.", file.name()));
+        say(&format!("{} has more than 5 MB: open it in Logs, which reads files of any size.", file.name()));
         return;
     }
     spawn_local(async move {
@@ -181,6 +181,14 @@ fn copy_by_selection(text: &str) {
         let _ = document().unchecked_into::<HtmlDocument>().exec_command("copy");
         area.remove();
     }
+}
+
+/// What is kept while it is handed over to the view of logs.
+pub const LOG: &str = "log";
+
+/// Goes to another view.
+pub fn go_to(document: &str) {
+    let _ = window().location().set_href(document);
 }
 
 /// The id of the field that a file is chosen in.

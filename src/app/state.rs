@@ -5,9 +5,9 @@ use leptos::prelude::*;
 
 use super::address::{self, Shows, Step};
 use super::browser;
-use crate::field::{Direction, Field, Span, count, leaves};
+use crate::field::{Direction, Field, Message, Span, count, leaves};
 use crate::tool::link::Link;
-use crate::tool::{Detail, Options, Report, Settings, Summary, Telegram, decode};
+use crate::tool::{Detail, Explanation, Options, Report, Settings, Summary, Telegram, decode};
 
 /// The page's state, as handed to every part of it.
 #[derive(Clone, Copy)]
@@ -40,6 +40,24 @@ pub struct Shown {
     pub of: usize,
     pub telegram: Telegram,
     pub detail: Detail,
+    /// What may have happened where its check failed, best first.
+    pub causes: Vec<Explanation>,
+    /// Why that cannot be told, if so.
+    pub undecidable: Option<Message>,
+}
+
+impl Shown {
+    /// Telegram `index` of a report, which is number `number` of `of` for a person, from 0.
+    pub fn of(report: &Report, index: usize, number: usize, of: usize) -> Option<Self> {
+        Some(Self {
+            index: number,
+            of,
+            telegram: report.telegrams.get(index)?.clone(),
+            detail: report.detail(index)?,
+            causes: report.explanations(index),
+            undecidable: report.undecidable(index),
+        })
+    }
 }
 
 /// Chosen bytes, and which one of them is explained.
@@ -76,9 +94,7 @@ impl Decoded {
     fn show(&mut self, index: usize) {
         let of = self.report.telegrams.len();
         let index = index.min(of.saturating_sub(1));
-        let telegram = self.report.telegrams.get(index).cloned();
-        let read = telegram.zip(self.report.detail(index));
-        self.shown = read.map(|(telegram, detail)| Shown { index, of, telegram, detail });
+        self.shown = Shown::of(&self.report, index, index, of);
     }
 }
 

@@ -105,7 +105,7 @@ impl Splitter {
     #[inline]
     pub fn answer_length(&self, request: &[u8]) -> Option<usize> {
         let [asked, answer] = self.rule(*request.first()?)?;
-        match (asked, answer) {
+        match (*asked, *answer) {
             (_, Length::Fixed(length)) => Some(length),
             // All functions that read so many items have their number here.
             (Length::Fixed(5) | Length::Counted { at: 9, .. }, Length::Counted { at: 1, unit }) => {
@@ -128,8 +128,8 @@ impl Splitter {
     }
 
     #[inline]
-    fn rule(&self, function: u8) -> Option<[Length; 2]> {
-        self.rules.get(usize::from(function)).copied().flatten()
+    fn rule(&self, function: u8) -> Option<&[Length; 2]> {
+        self.rules.get(usize::from(function))?.as_ref()
     }
 
     #[inline]
@@ -153,7 +153,7 @@ impl Splitter {
         }
         let Some([request, response]) = self.rule(function) else { return Begins::Nothing };
         let pdu = &bytes[1..];
-        let whole = |rule: Length| rule.of(pdu).map(|length| length + AROUND);
+        let whole = |rule: &Length| rule.of(pdu).map(|length| length + AROUND);
         let (asks, answers) = (whole(request), whole(response).filter(|_| unit != BROADCAST));
         if let (Some(awaited), Some(length)) = (awaited, answers) {
             // No telegram is longer than the one that is awaited, and none has another length.
@@ -226,7 +226,7 @@ const AROUND: usize = modbus_rtu::RTU.around();
 /// Whether a frame of `length` begins `bytes` whose PDU is of the length `rule` and whose check is
 /// right.
 #[inline]
-fn right(bytes: &[u8], length: Option<usize>, rule: Option<Length>, more: Begins) -> Begins {
+fn right(bytes: &[u8], length: Option<usize>, rule: Option<&Length>, more: Begins) -> Begins {
     // Nothing tells how long it is: it cannot be told from what follows, unless bytes are missing.
     let Some(length) = length else { return if bytes.len() < 12 { more } else { Begins::Nothing } };
     if length > modbus_rtu::RTU.longest() || length < modbus_rtu::RTU.shortest() {

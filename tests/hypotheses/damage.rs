@@ -67,8 +67,10 @@ fn exchange(random: &mut Random) -> [Vec<u8>; 2] {
 /// Damages a telegram; `None` where this one cannot be damaged so.
 type Damage = fn(&[u8], &mut Random) -> Option<Vec<u8>>;
 
-/// The ways, and whether each is decidable by the odds for a telegram of so many bytes.
-static WAYS: &[(&str, Damage, fn(usize) -> bool)] = &[
+/// Whether a way is decidable by the odds for a telegram of so many bytes.
+type Decides = fn(usize) -> bool;
+
+static WAYS: &[(&str, Damage, Decides)] = &[
     (
         "check bytes swapped",
         |bytes, _| {
@@ -305,13 +307,15 @@ fn of_10_000_damaged_telegrams_the_true_ones_are_found() {
 }
 
 /// The true telegram, the damaged one, and the telegrams before it.
+type Damaged = (Vec<u8>, Vec<u8>, Vec<Vec<u8>>);
+
 fn damaged(
     name: &str,
     damage: Damage,
     right: &[u8],
     before: Option<&[u8]>,
     random: &mut Random,
-) -> Option<(Vec<u8>, Vec<u8>, Vec<Vec<u8>>)> {
+) -> Option<Damaged> {
     let context: Vec<Vec<u8>> = before.into_iter().map(<[u8]>::to_vec).collect();
     match name {
         "check copied" => {

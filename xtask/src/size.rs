@@ -5,13 +5,18 @@ use std::path::Path;
 use crate::steps::Result;
 
 /// The most bytes that the first view of the page may fetch, compressed with gzip: on a slow phone
-/// line of 400 kbit/s this is under four seconds. It was 90 kB for Modbus RTU alone; every function
-/// code, PROFIBUS and the tables of three devices are in it since. 1 kB is 1000 bytes.
-const BUDGET: u64 = 180_000;
+/// line of 400 kbit/s this is four seconds. It was 90 kB for Modbus RTU alone; every function code,
+/// PROFIBUS, the tables of three devices and the causes of failed checks are in it since. 1 kB is 1000
+/// bytes.
+const BUDGET: u64 = 200_000;
 
 /// The same for the other documents, which come later and have the browser's copies of some files. 20 kB
 /// of it is JSON.
 const LATER_BUDGET: u64 = 230_000;
+
+/// The same for the document that reads logs: its worker comes in the background, and is made for speed
+/// (level 3), which doubles it.
+const LOGS_BUDGET: u64 = 430_000;
 
 /// A file of the page with its lengths in bytes.
 struct Row {
@@ -74,7 +79,12 @@ fn check_document(folder: &Path, files: &[String], document: &str) -> Result {
             row.name
         );
     }
-    within(all.gzip, if document == "index.html" { BUDGET } else { LATER_BUDGET })
+    let budget = match document {
+        "index.html" => BUDGET,
+        "logs.html" => LOGS_BUDGET,
+        _ => LATER_BUDGET,
+    };
+    within(all.gzip, budget)
 }
 
 fn within(gzip: u64, budget: u64) -> Result {

@@ -2,15 +2,16 @@
 
 use maud::{Markup, html};
 
+use super::causes;
 use crate::app::address::fragment;
 use crate::app::browser::span_text;
 use crate::app::state::Shown;
 use crate::field::{Check, Span, hex, hex_value};
-use crate::tool::Verdict;
 use crate::tool::link::Link;
+use crate::tool::{Options, Verdict};
 
-/// `link` leads to the telegram.
-pub fn check(shown: &Shown, link: &str) -> Markup {
+/// `options` say how the telegram was read.
+pub fn check(shown: &Shown, options: &Options) -> Markup {
     let Some(check) = shown.detail.check() else { return unchecked(shown) };
     let bytes = shown.bytes();
     let computed = check.computed_bytes();
@@ -40,11 +41,11 @@ pub fn check(shown: &Shown, link: &str) -> Markup {
                      wrong. The check alone cannot tell which: what is said above may be wrong, too."
                 }
                 div.actions {
-                    a.quiet href={ "sheet.html#" (link) } { "What may have happened" }
                     button.quiet type="button" data-copy=(hex(&corrected(bytes, &check))) {
                         "Copy with the computed check"
                     }
                 }
+                (causes::causes(shown, options))
             }
         }
     }

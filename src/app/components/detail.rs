@@ -39,7 +39,7 @@ pub fn Telegram(state: State, actions: Actions) -> impl IntoView {
     });
     let registers =
         of_shown(state, move |shown, _| views::chosen(shown, state.chosen.get().map(|chosen| chosen.span)));
-    let check = of_shown(state, |shown, decoded| check::check(shown, &link(shown, decoded)));
+    let check = of_shown(state, |shown, decoded| check::check(shown, &decoded.options));
     let layout =
         of_shown(state, |shown, decoded| layout::layout(&shown.detail, &decoded.report.layout(shown.index)));
     let no_registers: Drawn<bool> = Box::new(move || state.decoded.with(|decoded| !has_registers(decoded)));

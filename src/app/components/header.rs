@@ -41,7 +41,7 @@ pub fn hear(kind: &str, event: &Event) {
 }
 
 const DEVICES: &str = "devices.html";
-const LOGS: &str = "logs.html";
+pub const LOGS: &str = "logs.html";
 
 /// The views, each a document of its own.
 const VIEWS: [(&str, &str); 5] =

@@ -4,7 +4,7 @@ use leptos::prelude::*;
 use maud::{Markup, html};
 use web_sys::{Element, Event, HtmlTextAreaElement};
 
-use super::{drawn, marks, settings};
+use super::{drawn, header, marks, settings};
 use crate::app::browser::{self, FILE, INPUT};
 use crate::app::state::State;
 use crate::field::{Severity, Span, count};
@@ -44,6 +44,10 @@ pub fn hear(state: State, kind: &str, event: &Event) {
         && let Some(span) = browser::span(event)
     {
         state.decoded.with_untracked(|decoded| mark(&decoded.text, span));
+    }
+    if kind == "click" && browser::attribute(event, "data-logs").is_some() {
+        state.decoded.with_untracked(|decoded| browser::remember(browser::LOG, &decoded.text));
+        browser::go_to(header::LOGS);
     }
     match kind {
         "paste" if !browser::is_field(event) => {
@@ -145,8 +149,19 @@ fn reading(text: &str, report: &Report) -> Markup {
                 " " strong.error { (count(summary.lines_not_understood, "line")) } " without bytes."
             }
         }
+        @if looks_like_log(report) {
+            p { "Is this a log of another program? " button.link type="button" data-logs="" { "Read it in Logs" } }
+        }
         (remarks(text, report))
     }
+}
+
+/// Whether most lines have something besides bytes in them.
+fn looks_like_log(report: &Report) -> bool {
+    let lines = report.lines().count();
+    let odd =
+        report.lines().filter(|line| line.remarks.iter().any(|remark| remark.code == "not-hex")).count();
+    lines > 1 && odd * 2 > lines
 }
 
 /// The protocol of all telegrams, if they have the same.

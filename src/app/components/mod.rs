@@ -6,6 +6,7 @@
 //! parts, who know what is theirs by the ids and the attributes `data-…` around the event's target.
 
 pub mod byte;
+pub mod causes;
 pub mod check;
 pub mod copies;
 pub mod detail;

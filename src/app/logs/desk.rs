@@ -12,7 +12,7 @@ use web_sys::{Blob, Element, HtmlLinkElement, MessageEvent, Worker, WorkerOption
 use super::mail::{Mail, pairs_text};
 use crate::app::address::SETTINGS;
 use crate::app::browser::{self, LIST};
-use crate::field::{Span, count};
+use crate::field::{Span, many};
 
 thread_local! {
     static WORKER: RefCell<Option<Worker>> = const { RefCell::new(None) };
@@ -40,6 +40,7 @@ pub struct Desk {
     /// Markup that the worker drew.
     pub settings: RwSignal<String>,
     pub story: RwSignal<String>,
+    pub findings: RwSignal<String>,
     pub table: RwSignal<String>,
     pub lists: RwSignal<String>,
     pub picture: RwSignal<String>,
@@ -90,6 +91,7 @@ impl Desk {
             stage: RwSignal::default(),
             settings: RwSignal::default(),
             story: RwSignal::default(),
+            findings: RwSignal::default(),
             table: RwSignal::default(),
             lists: RwSignal::default(),
             picture: RwSignal::default(),
@@ -129,9 +131,16 @@ impl Desk {
         let Some((file, name)) = FILE.with_borrow(Clone::clone) else { return };
         self.stage.set(Stage::Reading { done: 0.0, of: file.size(), telegrams: 0, since: now() });
         self.filter.update(BTreeMap::clear);
-        for markup in
-            [self.story, self.table, self.lists, self.picture, self.series, self.telegram, self.unread]
-        {
+        for markup in [
+            self.story,
+            self.findings,
+            self.table,
+            self.lists,
+            self.picture,
+            self.series,
+            self.telegram,
+            self.unread,
+        ] {
             markup.set(String::new());
         }
         self.rows.set((0, String::new()));
@@ -214,6 +223,11 @@ impl Desk {
 
     pub fn ask(&self, kind: &str) {
         self.send(Mail::new(kind));
+    }
+
+    pub fn ask_number(&self, kind: &str, number: usize) {
+        self.filter.update(|filter| drop(filter.insert("finding".to_owned(), number.to_string())));
+        self.send(Mail::new(kind).with(number as f64));
     }
 
     pub fn draw_series(&self, unit: &str, register: &str) {
@@ -318,8 +332,9 @@ impl Desk {
                 }
                 self.ask_rows(0);
                 self.select(0);
-                browser::announce(format!("{} in the list", count(mail.index(1), "telegram")));
+                browser::announce(format!("{} in the list", many(mail.index(1), "telegram")));
             }
+            "findings" => self.findings.set(mail.text(1)),
             "rows" => self.rows.set((mail.index(1), mail.text(2))),
             "telegram" => {
                 let place = (mail.number(1) >= 0.0).then(|| mail.index(1));
@@ -364,6 +379,11 @@ impl Desk {
         });
         worker.set_onmessage(Some(hear.into_js_value().unchecked_ref()));
         WORKER.with_borrow_mut(|kept| *kept = Some(worker));
+        // What another view hands over.
+        if let Some(text) = browser::remembered(browser::LOG).filter(|text| !text.is_empty()) {
+            browser::remember(browser::LOG, "");
+            self.paste(&text);
+        }
     }
 
     /// Sends to the worker, or keeps what is to be opened until it can hear.

@@ -15,6 +15,7 @@ use web_sys::js_sys::Array;
 /// | `find` | a telegram's index: where it is in the list |
 /// | `step` | a place, and 1 or -1: the next error from there |
 /// | `series` | unit, register |
+/// | `finding` | its number: the list shows its telegrams |
 /// | `export` | kind, numbers with comments |
 /// | `unread`, `sample` | lines without bytes; a line to mark parts in |
 ///
@@ -24,6 +25,7 @@ use web_sys::js_sys::Array;
 /// | `progress` | bytes done, bytes in all, telegrams |
 /// | `refused` | why |
 /// | `ready` | markup of the summary, of the filter's lists, and how many bytes it takes |
+/// | `findings` | markup |
 /// | `filtered` | how many, of how many, markup of the timeline |
 /// | `rows` | the first place, markup |
 /// | `telegram` | its place, its number, markup |

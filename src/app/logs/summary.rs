@@ -4,7 +4,8 @@ use maud::{Markup, html};
 
 use super::rows::milliseconds;
 use crate::app::components::settings::list;
-use crate::tool::log::{Log, Wanted};
+use crate::field::count;
+use crate::tool::log::{Finding, Log, Wanted};
 use crate::tool::{PROFILES, PROTOCOLS};
 
 /// The log in sentences.
@@ -16,6 +17,23 @@ pub fn story(log: &Log, name: &str) -> Markup {
         @if let Some(fault) = log.fault() { p.error { (fault) } }
         @if let Some(first) = first { h2 { (first.sentence()) "." } }
         ul.story { @for sentence in rest { li { (sentence.sentence()) "." } } }
+    }
+}
+
+/// What is behind many errors, each with a button to its telegrams.
+pub fn findings(findings: &[Finding]) -> Markup {
+    html! {
+        @if !findings.is_empty() {
+            h3 { "What is wrong, as far as the log tells" }
+            ol.found {
+                @for (index, finding) in findings.iter().enumerate() {
+                    li {
+                        (finding.text.sentence()) ". "
+                        button.link type="button" data-finding=(index) { "Show " (count(finding.evidence.len(), "telegram")) }
+                    }
+                }
+            }
+        }
     }
 }
 

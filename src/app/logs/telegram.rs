@@ -22,10 +22,7 @@ pub fn telegram(log: &Log, source: &dyn Source, index: usize) -> Markup {
     read.sort_unstable();
     let report = log.report(source, &read);
     let place = read.iter().position(|other| *other == index).unwrap_or_default();
-    let (Some(found), Some(detail)) = (report.telegrams.get(place).cloned(), report.detail(place)) else {
-        return html! {};
-    };
-    let shown = Shown { index, of: log.entries().len(), telegram: found, detail };
+    let Some(shown) = Shown::of(&report, place, index, log.entries().len()) else { return html! {} };
     let texts: Vec<String> = report.telegrams.iter().map(|telegram| hex(&telegram.line.bytes)).collect();
     let mut options = log.options().clone();
     options.protocol = Some(entry.protocol());
@@ -62,7 +59,7 @@ pub fn telegram(log: &Log, source: &dyn Source, index: usize) -> Markup {
             (rows_of("Device", device))
         }
         (rows_of("Fields", fields::fields(&shown)))
-        (check::check(&shown, &fragment(&link)))
+        (check::check(&shown, log.options()))
     }
 }
 

@@ -12,7 +12,7 @@ use super::mail::{Mail, pairs_of};
 use super::{rows, summary, telegram, timeline};
 use crate::field::{Direction, Span};
 use crate::tool::link::Link;
-use crate::tool::log::{self, Filter, Input, Log, Marks, Numbers, Place, Reading, Source, Wanted};
+use crate::tool::log::{self, Filter, Finding, Input, Log, Marks, Numbers, Place, Reading, Source, Wanted};
 use crate::tool::{annotated, csv, json};
 
 /// What is read at a time.
@@ -41,6 +41,7 @@ struct Opened {
     filter: Filter,
     /// The indices of the telegrams that the list shows.
     chosen: Vec<u32>,
+    findings: Vec<Finding>,
 }
 
 /// A file that can be read at any place.
@@ -153,7 +154,8 @@ async fn open(turn: u32, file: File, name: String, how: String) {
         }
     }
     log.finish();
-    let opened = Opened { log, file, name, filter: Filter::default(), chosen: Vec::new() };
+    let opened =
+        Opened { log, file, name, filter: Filter::default(), chosen: Vec::new(), findings: Vec::new() };
     DESK.with_borrow_mut(|desk| {
         if desk.turn == turn {
             desk.opened.insert(opened).ready();
@@ -173,6 +175,13 @@ impl Opened {
                 .with(self.log.memory() as f64),
         );
         self.choose();
+        self.find_causes();
+    }
+
+    /// Looks for what is behind many errors.
+    fn find_causes(&mut self) {
+        self.findings = self.log.findings(&self.file);
+        tell(&Mail::new("findings").with(summary::findings(&self.findings).into_string()));
     }
 
     fn hear(&mut self, mail: &Mail) {
@@ -189,6 +198,7 @@ impl Opened {
             "select" => self.select(mail.index(1)),
             "find" => self.find(mail.index(1)),
             "step" => self.step(mail.index(1), mail.number(2) > 0.0),
+            "finding" => self.show_finding(mail.index(1)),
             "series" => self.series(mail.number(1), mail.number(2)),
             "export" => self.export(&mail.text(1), &mail.text(2)),
             "unread" => self.unread(),
@@ -197,9 +207,22 @@ impl Opened {
         }
     }
 
+    /// Shows the telegrams that a finding is about.
+    fn show_finding(&mut self, number: usize) {
+        if let Some(finding) = self.findings.get(number) {
+            self.chosen = finding.evidence.clone();
+            self.list();
+        }
+    }
+
     /// Finds the telegrams that the filter lets through.
     fn choose(&mut self) {
         self.chosen = self.log.filtered(&self.filter, &self.file, self.file.size());
+        self.list();
+    }
+
+    /// Says what the list has.
+    fn list(&self) {
         let all = self.chosen.len() == self.log.entries().len();
         let picture = self.log.timeline((!all).then_some(self.chosen.as_slice()), BUCKETS);
         tell(

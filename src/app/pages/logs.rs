@@ -7,7 +7,7 @@ use web_sys::{Element, Event, HtmlInputElement};
 use crate::app::browser::{self, DETAIL, DEVICE, FILE, LIST, PROTOCOL};
 use crate::app::components::{Drawn, detail, drawn, header, menu};
 use crate::app::logs::desk::{Desk, Stage, now};
-use crate::field::{Span, count};
+use crate::field::{Span, grouped, many};
 
 /// An event of the page, for the part that it concerns.
 pub fn hear(desk: Desk, event: &Event) {
@@ -49,6 +49,9 @@ pub fn hear(desk: Desk, event: &Event) {
     }
 }
 
+/// A short log: unit 9 is silent, and a converter swallows bytes 11h and 13h.
+const EXAMPLE: &str = include_str!("example.log");
+
 /// The id of the field to paste into.
 const PASTE: &str = "paste";
 
@@ -75,6 +78,8 @@ fn click(desk: Desk, event: &Event) {
         desk.find(index);
     } else if let Some(place) = number("data-place") {
         desk.select(place);
+    } else if let Some(finding) = number("data-finding") {
+        desk.ask_number("finding", finding);
     } else if let Some(kind) = browser::attribute(event, "data-export") {
         desk.export(&kind);
         menu::close(event);
@@ -93,6 +98,7 @@ fn click(desk: Desk, event: &Event) {
     } else if let Some(what) = browser::attribute(event, "data-do") {
         match what.as_str() {
             "stop" => desk.stop(),
+            "example" => desk.paste(EXAMPLE),
             "next" => desk.step(true),
             "previous" => desk.step(false),
             "series" => {
@@ -203,6 +209,7 @@ fn key(desk: Desk, event: &Event) {
 #[component]
 pub fn Logs(desk: Desk) -> impl IntoView {
     let ready: Drawn<bool> = Box::new(move || desk.stage.get() != Stage::Ready);
+    let nothing: Drawn<bool> = Box::new(move || desk.telegram.with(String::is_empty));
     let ready_too: Drawn<bool> = Box::new(move || desk.stage.get() != Stage::Ready);
     view! {
         <header::Header here="logs.html" />
@@ -216,6 +223,7 @@ pub fn Logs(desk: Desk) -> impl IntoView {
                     </details>
                     <div inner_html=drawn(move || stage(desk)) aria-live="polite"></div>
                     <div class="story" inner_html=Box::new(move || desk.story.get()) as Drawn></div>
+                    <div class="findings" inner_html=Box::new(move || desk.findings.get()) as Drawn></div>
                     <p id="status" role="status" class="unseen"></p>
                     <div hidden=ready inner_html=lower().into_string()></div>
                     <div inner_html=Box::new(move || desk.unread.get()) as Drawn></div>
@@ -234,7 +242,7 @@ pub fn Logs(desk: Desk) -> impl IntoView {
                 </section>
                 <Telegrams desk />
             </div>
-            <section id=DETAIL class="card detail" aria-label="Telegram">
+            <section id=DETAIL class="card detail" aria-label="Telegram" hidden=nothing>
                 <div inner_html=Box::new(move || desk.telegram.get()) as Drawn></div>
                 <Note desk />
             </section>
@@ -252,7 +260,13 @@ fn Telegrams(desk: Desk) -> impl IntoView {
         let (above, below) = desk.space();
         let space =
             |height: usize| html! { svg.space width="1" height=(height) aria-hidden="true" {} }.into_string();
-        desk.rows.with(|(_, rows)| [space(above), rows.clone(), space(below)].concat())
+        // What is chosen now is drawn as such; what is chosen later is marked below.
+        let place = desk.place.get_untracked().map(|place| format!("data-place=\"{place}\""));
+        let chosen = |rows: &str| match &place {
+            Some(place) => rows.replacen(place.as_str(), &format!("{place} aria-selected=\"true\""), 1),
+            None => rows.to_owned(),
+        };
+        desk.rows.with(|(_, rows)| [space(above), chosen(rows), space(below)].concat())
     });
     // The chosen row is marked by itself: drawing all rows anew would be felt.
     Effect::new(move |_| {
@@ -271,9 +285,9 @@ fn Telegrams(desk: Desk) -> impl IntoView {
         let filtered = desk.filter.with(|filter| !filter.is_empty());
         html! {
             @if filtered {
-                (count_in_list) " of " (count(all, "telegram")) " "
+                (grouped(count_in_list)) " of " (many(all, "telegram")) " "
                 button.link type="button" data-all="" { "show all" }
-            } @else { (count(all, "telegram")) }
+            } @else { (many(all, "telegram")) }
         }
     });
     view! {
@@ -348,13 +362,14 @@ fn stage(desk: Desk) -> maud::Markup {
     match desk.stage.get() {
         Stage::Empty => html! {
             p { "Logs of any program and layout, hex dumps, raw bytes of a line, captures (pcap, pcapng). Large files are fine: nothing is sent anywhere." }
+            p { button.quiet type="button" data-do="example" { "Try it with an example" } }
         },
         Stage::Reading { done, of, telegrams, since } => {
             let left = if done > 0.0 { (now() - since) / done * (of - done) / 1000.0 } else { 0.0 };
             html! {
                 div.reading-on {
                     progress max=(of.max(1.0)) value=(done) aria-label="Read" {}
-                    span { (format!("{:.0} %", done / of.max(1.0) * 100.0)) ", " (count(telegrams, "telegram")) @if left >= 1.0 { ", " (format!("{left:.0} s left")) } }
+                    span { (format!("{:.0} %", done / of.max(1.0) * 100.0)) ", " (many(telegrams, "telegram")) @if left >= 1.0 { ", " (format!("{left:.0} s left")) } }
                     button.quiet type="button" data-do="stop" { "Stop" }
                 }
             }

@@ -91,6 +91,9 @@ impl Search<'_> {
     }
 }
 
+/// Takes places with the bytes to put there.
+type Found<'a> = &'a mut dyn FnMut(&[(usize, u8)]);
+
 /// Tries to put `count` bytes of flow control into `bytes` from a place on, where the CRC has a
 /// value; `found` gets the places and bytes that make the check right.
 fn insert(
@@ -99,7 +102,7 @@ fn insert(
     (from, mut crc): (usize, u16),
     count: usize,
     places: &mut Vec<(usize, u8)>,
-    found: &mut dyn FnMut(&[(usize, u8)]),
+    found: Found<'_>,
 ) {
     for at in from..=bytes.len() {
         for byte in FLOW {

@@ -131,6 +131,7 @@ impl Traffic {
     /// Takes the next bytes; `false` if the log has more telegrams than can be kept.
     pub fn take(&mut self, chunk: Chunk<'_>) -> bool {
         let time = chunk.time.map_or(NO_TIME, |time| self.continuous(time));
+        self.data.reserve(chunk.bytes.len());
         let way = match (chunk.both_ways, chunk.hint) {
             (true, Hint::Says(Direction::Response)) => 1,
             _ => 0,

@@ -1,6 +1,6 @@
 //! A log in numbers.
 
-use std::collections::BTreeMap;
+use std::collections::HashMap;
 
 use super::collect::Traffic;
 use super::entry::{Entry, Role};
@@ -68,11 +68,36 @@ struct Gathered {
     silent: Vec<i64>,
 }
 
+/// Port, unit and function.
+type Key = (u16, Option<u8>, u8);
+
+/// What is gathered, by key. Request and response have the same one, so that the last one is looked
+/// at first.
+#[derive(Default)]
+struct Dialogs {
+    list: Vec<(Key, Gathered)>,
+    places: HashMap<Key, usize>,
+    last: usize,
+}
+
+impl Dialogs {
+    fn of(&mut self, key: Key) -> &mut Gathered {
+        if self.list.get(self.last).is_none_or(|(known, _)| *known != key) {
+            let fresh = self.list.len();
+            self.last = *self.places.entry(key).or_insert(fresh);
+            if self.last == fresh {
+                self.list.push((key, Gathered::default()));
+            }
+        }
+        &mut self.list[self.last].1
+    }
+}
+
 /// Counts.
 pub fn statistics(traffic: &Traffic) -> Statistics {
     let entries = traffic.entries();
     let mut all = Statistics::default();
-    let mut dialogs: BTreeMap<(u16, Option<u8>, u8), Gathered> = BTreeMap::new();
+    let mut dialogs = Dialogs::default();
     for entry in entries {
         if entry.role == Role::Discarded {
             all.bytes_discarded += usize::from(entry.length);
@@ -103,11 +128,13 @@ pub fn statistics(traffic: &Traffic) -> Statistics {
         }
         if entry.role != Role::Echo {
             let key = (entry.port, entry.unit, entry.plain_function());
-            count(dialogs.entry(key).or_default(), entry, entries);
+            count(dialogs.of(key), entry, entries);
         }
     }
     let whole = all.times.map_or(0, |(first, last)| last - first);
-    all.dialogs = dialogs
+    let mut list: Vec<(Key, Gathered)> = dialogs.list;
+    list.sort_by_key(|(key, _)| *key);
+    all.dialogs = list
         .into_iter()
         .map(|((port, unit, function), gathered)| Dialog { port, unit, function, ..gathered.close(whole) })
         .collect();

@@ -4,6 +4,7 @@
 //! made for those that somebody looks at, by [`Log::report`], which reads their lines again.
 
 mod filter;
+mod findings;
 mod format;
 mod pictures;
 mod rows;
@@ -12,6 +13,7 @@ mod story;
 pub use crate::dialogue::traffic::{Dialog, Entry, Minutes, Role, Statistics};
 pub use crate::text::log::{LAYOUTS, Layout, Marks, Numbers, Place};
 pub use filter::{Filter, Wanted, is_error};
+pub use findings::Finding;
 pub use format::{Format, Refusal};
 pub use pictures::{Bucket, Point, Timeline};
 pub use story::time_text;

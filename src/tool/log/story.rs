@@ -1,7 +1,7 @@
 //! A log in sentences.
 
 use super::{Dialog, Log};
-use crate::field::{Message, count};
+use crate::field::{Message, grouped, many};
 use crate::message;
 
 impl Log {
@@ -141,24 +141,6 @@ impl Log {
 /// More units are in the table.
 const MOST_UNITS: usize = 5;
 
-/// "1,004 requests".
-pub(super) fn many(n: usize, noun: &str) -> String {
-    count(n, noun).replacen(&n.to_string(), &grouped(n), 1)
-}
-
-/// A number with its thousands parted.
-pub(super) fn grouped(n: usize) -> String {
-    let digits = n.to_string();
-    let mut text = String::new();
-    for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}
-
 /// Microseconds as a time: with its date if it is one since 1970.
 pub fn time_text(micros: i64) -> String {
     const SECOND: i64 = 1_000_000;
@@ -206,12 +188,5 @@ mod tests {
         assert_eq!(time_text(34_205_000_000), "09:30:05");
         assert_eq!(time_text(1_772_443_805_091_000), "2026-03-02 09:30:05.091");
         assert_eq!(time_text(86_400_000_000), "00:00:00 (+1 d)");
-    }
-
-    #[test]
-    fn numbers_are_grouped() {
-        assert_eq!(many(1004, "request"), "1,004 requests");
-        assert_eq!(many(1, "line"), "1 line");
-        assert_eq!(grouped(1_234_567), "1,234,567");
     }
 }

@@ -1,0 +1,254 @@
+//! What is wrong in the plant, as far as a log tells: one cause behind many symptoms, with evidence.
+
+use std::collections::BTreeMap;
+
+use super::{Entry, Log, Role, Source};
+use crate::dialogue::Cause;
+use crate::field::{Direction, Message, grouped, many};
+use crate::frame::Verdict;
+use crate::message;
+
+/// Something that explains much of what went wrong.
+#[derive(Clone, Debug)]
+pub struct Finding {
+    /// The stable word of exports.
+    pub code: &'static str,
+    /// What it is, and what to do about it.
+    pub text: Message,
+    /// The indices of telegrams that show it.
+    pub evidence: Vec<u32>,
+}
+
+/// So many telegrams are shown as evidence.
+const EVIDENCE: usize = 1000;
+
+impl Log {
+    /// The findings, the gravest first. It takes as long as explaining some hundred telegrams.
+    pub fn findings(&self, source: &dyn Source) -> Vec<Finding> {
+        let mut findings = Vec::new();
+        findings.extend(self.of_checks(source));
+        findings.extend(self.of_noise());
+        findings.extend(self.of_silence());
+        findings.extend(self.of_refusals());
+        findings.extend(self.of_lateness());
+        findings.extend(self.of_clients());
+        findings
+    }
+
+    fn indices(&self, chosen: impl Fn(&Entry) -> bool) -> Vec<u32> {
+        let entries = self.entries().iter().zip(0_u32..);
+        entries.filter(|(entry, _)| chosen(entry)).map(|(_, index)| index).take(EVIDENCE).collect()
+    }
+
+    /// One cause behind most failed checks.
+    fn of_checks(&self, source: &dyn Source) -> Option<Finding> {
+        /// So many are explained, spread over the log.
+        const SAMPLE: usize = 300;
+        const FEWEST: usize = 3;
+        let wrong: Vec<usize> = self
+            .entries()
+            .iter()
+            .enumerate()
+            .filter(|(_, entry)| entry.verdict == Verdict::Wrong && entry.role != Role::Discarded)
+            .map(|(index, _)| index)
+            .collect();
+        let sample: Vec<usize> = wrong.iter().copied().step_by(wrong.len().div_ceil(SAMPLE).max(1)).collect();
+        let mut causes: BTreeMap<&'static str, (Cause, Vec<u32>)> = BTreeMap::new();
+        for index in &sample {
+            let partner = self.entries()[*index].partner();
+            let mut read: Vec<usize> = partner.into_iter().chain([*index]).collect();
+            read.sort_unstable();
+            let report = self.report(source, &read);
+            let place = read.iter().position(|other| other == index).unwrap_or_default();
+            if let Some(best) = report.explanations(place).into_iter().next() {
+                let cause = best.hypothesis.cause;
+                causes.entry(cause.key()).or_insert((cause, Vec::new())).1.push(*index as u32);
+            }
+        }
+        let (cause, evidence) = causes.into_values().max_by_key(|(_, evidence)| evidence.len())?;
+        if evidence.len() < FEWEST || evidence.len() * 10 < sample.len() * 6 {
+            return None;
+        }
+        let (what, advice) = advice(cause);
+        let of = match sample.len() < wrong.len() {
+            true => {
+                format!("{} looked at ({} in all)", many(sample.len(), "failed check"), grouped(wrong.len()))
+            }
+            false => many(sample.len(), "failed check"),
+        };
+        Some(Finding {
+            code: cause.key(),
+            text: message!(
+                "{n} of {of}: {what}. {advice}",
+                n = grouped(evidence.len()),
+                of = of,
+                what = what.to_owned(),
+                advice = advice.to_owned()
+            ),
+            evidence,
+        })
+    }
+
+    /// Much that is no telegram at all.
+    fn of_noise(&self) -> Option<Finding> {
+        let all: usize = self.entries().iter().map(|entry| usize::from(entry.length)).sum();
+        let bad = |entry: &Entry| entry.role == Role::Discarded || entry.verdict == Verdict::Wrong;
+        let lost: usize =
+            self.entries().iter().filter(|entry| bad(entry)).map(|entry| usize::from(entry.length)).sum();
+        (all > 200 && lost * 2 > all).then(|| Finding {
+            code: "not-understood",
+            text: message!(
+                "{percent} % of the bytes are no right telegram: suspect the baud rate, parity or stop bits that the log was taken with, or another protocol",
+                percent = lost * 100 / all
+            ),
+            evidence: self.indices(bad),
+        })
+    }
+
+    /// Units that never answer.
+    fn of_silence(&self) -> Vec<Finding> {
+        const FEWEST: usize = 5;
+        let mut units: BTreeMap<(u16, Option<u8>), (usize, usize)> = BTreeMap::new();
+        for dialog in &self.statistics().dialogs {
+            let (requests, answered) = units.entry((dialog.port, dialog.unit)).or_default();
+            *requests += dialog.requests;
+            *answered += dialog.answered;
+        }
+        let silent =
+            units.into_iter().filter(|(_, (requests, answered))| *requests >= FEWEST && *answered == 0);
+        silent
+            .filter_map(|((port, unit), (requests, _))| {
+                let number = unit?;
+                Some(Finding {
+                    code: "unit-silent",
+                    text: message!(
+                        "Unit {unit} answered none of {n}: it is off, not connected, or has another address, baud rate or parity",
+                        unit = number,
+                        n = many(requests, "request")
+                    ),
+                    evidence: self.indices(|entry| entry.port == port && entry.unit == unit && entry.unanswered()),
+                })
+            })
+            .collect()
+    }
+
+    /// Requests that are always refused.
+    fn of_refusals(&self) -> Vec<Finding> {
+        const FEWEST: usize = 3;
+        let dialogs = self.statistics().dialogs.iter();
+        let refused = dialogs.filter(|it| it.exceptions >= FEWEST && it.exceptions * 10 >= it.answered * 9);
+        refused
+            .filter_map(|dialog| {
+                let number = dialog.unit?;
+                Some(Finding {
+                    code: "always-refused",
+                    text: message!(
+                        "Unit {unit} refuses function {function}, {n} of {of}: does the device know it, and these addresses?",
+                        unit = number,
+                        function = dialog.function,
+                        n = grouped(dialog.exceptions),
+                        of = many(dialog.answered, "time")
+                    ),
+                    evidence: self.indices(|entry| {
+                        (entry.port, entry.unit) == (dialog.port, dialog.unit)
+                            && entry.plain_function() == dialog.function
+                            && entry.refuses()
+                    }),
+                })
+            })
+            .collect()
+    }
+
+    /// Responses after the client had given up.
+    fn of_lateness(&self) -> Option<Finding> {
+        const FEWEST: usize = 3;
+        let late = self.statistics().late;
+        (late >= FEWEST).then(|| Finding {
+            code: "too-late",
+            text: message!(
+                "{n} came when the client had gone on: let it wait longer for answers",
+                n = many(late, "response")
+            ),
+            evidence: self.indices(|entry| entry.role == Role::Late),
+        })
+    }
+
+    /// Requests before an answer to the last one could come.
+    fn of_clients(&self) -> Option<Finding> {
+        const FEWEST: usize = 5;
+        let median = self.statistics().dialogs.iter().filter_map(|dialog| dialog.median).min()?;
+        let mut hasty = Vec::new();
+        let mut before: Option<&Entry> = None;
+        for (entry, index) in self.entries().iter().zip(0_u32..).filter(|(entry, _)| entry.counts()) {
+            let serial = entry.protocol().waiting == 1;
+            if let (Some(earlier), Direction::Request, true) = (before, entry.direction, serial)
+                && earlier.direction == Direction::Request
+                && earlier.asks()
+                && entry.asks()
+                && entry.role != Role::Echo
+                && let (Some(then), Some(now)) = (earlier.time(), entry.time())
+                && (0..i64::from(median) / 2).contains(&(now - then))
+            {
+                hasty.push(index);
+            }
+            before = Some(entry);
+        }
+        (hasty.len() >= FEWEST).then(|| Finding {
+            code: "two-clients",
+            text: message!(
+                "{n} came before the one before could be answered: are there two clients (masters) on the line?",
+                n = many(hasty.len(), "request")
+            ),
+            evidence: hasty.into_iter().take(EVIDENCE).collect(),
+        })
+    }
+}
+
+/// A cause in words, and what to do about it.
+fn advice(cause: Cause) -> (&'static str, &'static str) {
+    match cause {
+        Cause::FlowControl => (
+            "bytes 11h or 13h are missing",
+            "Switch off software flow control (XON/XOFF) on the converter or port",
+        ),
+        Cause::CheckSwapped => {
+            ("the two bytes of the check are swapped", "The low byte goes first in Modbus RTU")
+        }
+        Cause::CheckMissing => {
+            ("the check is missing", "The program that wrote the log left it out, or the sender does")
+        }
+        Cause::CheckWithoutAddress => {
+            ("the check leaves out the address", "It is over all bytes, the address first")
+        }
+        Cause::CheckOfOtherKind(_) => (
+            "the check is of another kind",
+            "Modbus RTU takes CRC-16 with polynomial 8005h reflected and start FFFFh",
+        ),
+        Cause::CheckCopied => ("the check is that of another telegram", "Work it out for each telegram anew"),
+        Cause::LineTurn => (
+            "there are 00 or FF around the telegram",
+            "The line floats when it turns round: add bias resistors, or set the converter's turn-around time",
+        ),
+        Cause::EchoInFront | Cause::Joined => (
+            "two telegrams are in one",
+            "Switch off the echo of the converter, or let the program that logs part them at pauses",
+        ),
+        Cause::BitFlipped | Cause::ByteChanged => (
+            "single bits or bytes are changed",
+            "Look at shield, ground, terminating resistors and the distance to power cables",
+        ),
+        Cause::ByteMissing | Cause::Cut => (
+            "a byte is missing",
+            "The receiver lost it: look at the buffer of the port, and at pauses within telegrams",
+        ),
+        Cause::ByteDoubled | Cause::ByteExtra | Cause::LeadingBytes | Cause::TrailingBytes => (
+            "there are bytes too many",
+            "Two may speak at a time, or the direction of the converter is switched too early",
+        ),
+        Cause::WordsSwapped => {
+            ("the bytes of each word are swapped", "The high byte of a register goes first")
+        }
+        Cause::OtherProtocol => ("they are of another protocol", "Choose it above the list"),
+        _ => ("the same is wrong with all", "Look at one of them for what it is"),
+    }
+}
