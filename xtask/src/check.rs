@@ -47,7 +47,7 @@ fn clippy() -> Result {
 /// With the page's own profile: what it compiles for this machine then serves the page's build, too.
 fn clippy_for_wasm() -> Result {
     let target = ["clippy", "--profile", "page", "--target", tools::WASM];
-    let features = ["--no-default-features", "--features", "page,keys", "--lib", "--bins"];
+    let features = ["--no-default-features", "--features", "page,keys,captures", "--lib", "--bins"];
     cargo(&[&target[..], &features, &["--", "--deny", "warnings"]].concat())
 }
 

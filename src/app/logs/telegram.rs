@@ -18,8 +18,7 @@ pub fn telegram(log: &Log, source: &dyn Source, index: usize) -> Markup {
         return discarded(log, entry, index);
     }
     let partner = entry.partner();
-    let mut read: Vec<usize> = partner.into_iter().chain([index]).collect();
-    read.sort_unstable();
+    let read = log.context(index);
     let report = log.report(source, &read);
     let place = read.iter().position(|other| *other == index).unwrap_or_default();
     let Some(shown) = Shown::of(&report, place, index, log.entries().len()) else { return html! {} };

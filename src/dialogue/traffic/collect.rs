@@ -100,7 +100,7 @@ struct Row {
 }
 
 /// More entries than this would not fit into the memory of a page.
-const MOST_ENTRIES: usize = 24_000_000;
+const MOST_ENTRIES: usize = 16_000_000;
 
 /// A piece longer than this is a stream.
 const LONG: usize = 1024;

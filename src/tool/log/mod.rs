@@ -204,7 +204,7 @@ impl Log {
 
     /// Takes the next part of the file; `false` if no more can be kept.
     pub fn push(&mut self, part: &[u8]) -> bool {
-        let Self { input, traffic, unread, ports, full, taken, transcoded, fault, .. } = self;
+        let Self { input, traffic, unread, ports, full, taken, transcoded, .. } = self;
         let mut room = true;
         let mut take = |event: Event<'_>| room &= self::take(event, traffic, unread, ports);
         match input {
@@ -226,7 +226,7 @@ impl Log {
                     room &= traffic.take(of_segment(&segment));
                 };
                 if let Err(problem) = capture.push(part, &mut segment) {
-                    fault.get_or_insert(problem.to_string());
+                    self.fault.get_or_insert(problem.to_string());
                     room = false;
                 }
             }

@@ -5,7 +5,7 @@ use crate::dialogue::traffic::latency;
 use crate::dialogue::{Certainty, Choice, Guess};
 use crate::field::{Direction, Span};
 use crate::frame::Verdict;
-use crate::frame::modbus_ascii;
+use crate::frame::{Speaker, modbus_ascii};
 use crate::message;
 use crate::text::Line;
 use crate::text::log::{Event, Reader};
@@ -38,6 +38,25 @@ impl Log {
         let mut report = Report::of(telegrams.collect(), self.options.clone());
         report.forget(lessons.len());
         report
+    }
+
+    /// What tells more of telegram `index`, in order, itself included: its partner, and for jobs of a
+    /// parameter channel what was asked before.
+    pub fn context(&self, index: usize) -> Vec<usize> {
+        /// A job takes a few cycles.
+        const CYCLES: usize = 30;
+        let Some(entry) = self.entries().get(index) else { return Vec::new() };
+        let modbus = matches!(entry.protocol().speaker, Speaker::Pdu(_));
+        let first = if modbus { index } else { index.saturating_sub(CYCLES) };
+        let same = |other: &usize| {
+            let other = &self.entries()[*other];
+            other.counts() && (other.port, other.unit) == (entry.port, entry.unit)
+        };
+        let mut context: Vec<usize> =
+            (first..index).filter(same).chain(entry.partner()).chain([index]).collect();
+        context.sort_unstable();
+        context.dedup();
+        context
     }
 
     /// The report of all telegrams, without what is no telegram or is there twice.
