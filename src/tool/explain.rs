@@ -46,7 +46,9 @@ impl Report {
         let bytes_of = |index: usize| self.telegrams[index].line.bytes.as_slice();
         let before = telegram.answers.or(index.checked_sub(1)).map(bytes_of);
         let others = self.neighbours(index);
-        let context = Context { request: before, others: &others };
+        let lost = |code: &str| matches!(code, "single-digit" | "odd-digits" | "digit-missing");
+        let digit_lost = telegram.line.remarks.iter().any(|remark| lost(remark.code));
+        let context = Context { request: before, others: &others, digit_lost };
         let mut found: Vec<Explanation> = Vec::new();
         for hypothesis in hypotheses(&telegram.line.bytes, telegram.choice.protocol, context) {
             let explanation = self.explain(index, hypothesis);

@@ -15,6 +15,8 @@ pub enum Cause {
     BitFlipped,
     ByteChanged,
     DigitsSwapped,
+    /// A digit was lost when it was typed or copied.
+    DigitLost,
     BytesSwapped,
     /// The two bytes of each word have changed places.
     WordsSwapped,
@@ -56,6 +58,7 @@ const RARITY: &[(Cause, u32)] = &[
     (Cause::TrailingBytes, 4),
     (Cause::LeadingBytes, 4),
     (Cause::Cut, 4),
+    (Cause::DigitLost, 1),
     (Cause::CheckDigit, 5),
     (Cause::CheckWrong, 5),
     (Cause::CheckMissing, 5),
@@ -91,6 +94,7 @@ impl Cause {
             Self::BitFlipped => "bit-flipped",
             Self::ByteChanged => "byte-changed",
             Self::DigitsSwapped => "digits-swapped",
+            Self::DigitLost => "digit-lost",
             Self::BytesSwapped => "bytes-swapped",
             Self::WordsSwapped => "words-swapped",
             Self::ByteDoubled => "byte-doubled",

@@ -1,6 +1,6 @@
 //! Bytes with other values or in another order.
 
-use super::crc::{before, between, needed};
+use super::crc::{before, between, needed, step};
 use super::{Cause, Search};
 
 impl Search<'_> {
@@ -30,6 +30,47 @@ impl Search<'_> {
             if let Some(part) = words.get_mut(from..to) {
                 part.chunks_exact_mut(2).for_each(|word| word.swap(0, 1));
                 self.attempt(Cause::WordsSwapped, from, words, 4);
+            }
+        }
+    }
+
+    /// A digit that was lost in typing: a byte has one left, or all digits behind it moved by one.
+    pub(super) fn digit_lost(&mut self) {
+        /// Longer ones nobody types.
+        const LONGEST: usize = 60;
+        let length = self.bytes.len();
+        for at in (0..length).filter(|at| self.bytes[*at] < 16) {
+            let left = self.bytes[at];
+            for digit in 0..16 {
+                for byte in [left << 4 | digit, digit << 4 | left] {
+                    let mut bytes = self.bytes.to_vec();
+                    bytes[at] = byte;
+                    self.attempt(Cause::DigitLost, at, bytes, 31 * length);
+                }
+            }
+        }
+        if length > LONGEST {
+            return;
+        }
+        // The last digit is left over, and so unknown as well.
+        let digits: Vec<u8> = self.bytes.iter().flat_map(|byte| [byte >> 4, byte & 15]).collect();
+        for at in 0..=digits.len() {
+            for lost in 0..16 {
+                let front = digits[..at].iter().copied().chain([lost]);
+                let all: Vec<u8> = front.chain(digits[at..].iter().copied()).collect();
+                let whole = all.chunks_exact(2).map(|pair| pair[0] << 4 | pair[1]);
+                let start: Vec<u8> = whole.collect();
+                let state = start.iter().fold(0xFFFF, |crc, byte| step(crc, *byte));
+                // One digit is left; with the right last one, the check comes out right.
+                let high = all.last().copied().unwrap_or_default() << 4;
+                if let Some(last) = between(state, 0).filter(|byte| byte & 0xF0 == high) {
+                    self.attempt(
+                        Cause::DigitLost,
+                        at / 2,
+                        [start.as_slice(), &[last]].concat(),
+                        512 * length,
+                    );
+                }
             }
         }
     }

@@ -48,6 +48,8 @@ pub struct Context<'a> {
     pub request: Option<&'a [u8]>,
     /// Other telegrams of the same log.
     pub others: &'a [&'a [u8]],
+    /// The text that it was written in lacks a digit somewhere.
+    pub digit_lost: bool,
 }
 
 /// How many checks there are.
@@ -64,6 +66,9 @@ pub fn hypotheses(bytes: &[u8], protocol: &'static Protocol, context: Context<'_
         if (4..=LONGEST).contains(&bytes.len()) {
             search.check();
             search.exchanged();
+            if context.digit_lost {
+                search.digit_lost();
+            }
             search.changed();
             search.removed();
             search.missing();
@@ -202,6 +207,7 @@ impl Hypothesis {
             Cause::DigitsSwapped => {
                 message!("digits at byte {at} are swapped: {was} for {is}", at = at, was = was, is = is)
             }
+            Cause::DigitLost => message!("a digit of byte {at} is lost: it would be {is}", at = at, is = is),
             Cause::BytesSwapped => message!("bytes {at} and {next} are swapped", at = at, next = at + 1),
             Cause::WordsSwapped => {
                 message!("the two bytes of each word are swapped, from byte {at} on", at = at)
@@ -306,13 +312,24 @@ mod tests {
     fn what_is_around_a_telegram_explains_it() {
         let request = bytes("01 03 00 C8 00 01 05 F4");
         let response = "01 03 02 00 07 F9 86";
-        let context = Context { request: Some(&request), others: &[] };
+        let context = Context { request: Some(&request), ..Context::default() };
         let both = format!("01 03 00 C8 00 01 05 F4 {response}");
         assert!(causes(&both, response, context).contains(&Cause::EchoInFront));
         let other = bytes("05 06 00 01 00 02 58 4F");
         let others = [other.as_slice()];
-        let copied = causes("01 03 02 00 07 58 4F", response, Context { request: None, others: &others });
+        let copied =
+            causes("01 03 02 00 07 58 4F", response, Context { others: &others, ..Context::default() });
         assert!(copied.contains(&Cause::CheckCopied), "{copied:?}");
+    }
+
+    #[test]
+    fn a_lost_digit_is_found_again() {
+        const RIGHT: &str = "01 03 00 C8 00 03 84 35";
+        let context = Context { digit_lost: true, ..Context::default() };
+        // 01 03 00 C 00 03 84 35, and 010300800038435: from there on, digits are in other bytes.
+        for found in ["01 03 00 0C 00 03 84 35", "01 03 00 80 00 38 43"] {
+            assert!(causes(found, RIGHT, context).contains(&Cause::DigitLost), "{found}");
+        }
     }
 
     #[test]
@@ -349,7 +366,7 @@ mod tests {
         #[test]
         fn what_is_found_is_right(bytes in proptest::collection::vec(any::<u8>(), 0..320), request in proptest::collection::vec(any::<u8>(), 0..20)) {
             for protocol in crate::frame::PROTOCOLS {
-                let context = Context { request: Some(&request), others: &[&request] };
+                let context = Context { request: Some(&request), others: &[&request], digit_lost: true };
                 for one in hypotheses(&bytes, protocol, context) {
                     let _ = (one.text(&bytes), one.difference(&bytes), one.odds());
                     let of = one.protocol.unwrap_or(protocol);
