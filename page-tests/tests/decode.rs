@@ -31,6 +31,24 @@ async fn a_pasted_telegram_is_read() -> Result {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+async fn a_failed_check_shows_what_may_have_happened() -> Result {
+    let page = Page::open(DESKTOP, false).await?;
+    page.paste(BROKEN).await?;
+    let causes = page.texts(".causes li").await?;
+    assert!(causes[0].contains("The digits of byte 4 are swapped: 08h for 80h."), "{causes:?}");
+    assert!(causes[0].contains("Fits by chance: 1 in "), "{causes:?}");
+    page.click(".causes summary").await?;
+    assert_eq!(page.texts(".causes li:first-child mark").await?, ["08", "80"]);
+    assert_eq!(page.text(".strip .lit button").await?, "08", "the difference is marked in the bytes");
+    page.picture("causes-desktop-light").await?;
+    // Both, one beside the other.
+    page.click(".causes li:first-child a").await?;
+    page.until(".detail .title", "Telegram 2 of 2").await?;
+    assert_eq!(page.texts(".strip button").await?.join(" "), ANSWER);
+    page.close().await
+}
+
+#[tokio::test(flavor = "multi_thread")]
 async fn several_lines_are_a_list_and_answers_find_their_requests() -> Result {
     let page = Page::open(DESKTOP, false).await?;
     page.paste(&format!("{REQUEST}\n{ANSWER}\n\n05 06 0C 90 04 01 48 33")).await?;

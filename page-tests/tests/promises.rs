@@ -185,6 +185,7 @@ async fn everything_is_reached_by_keyboard() -> Result {
         "nav",
         "nav",
         "nav",
+        "nav",
         "quiet",
         "theme",
         "input",

@@ -33,16 +33,6 @@ async fn the_telegrams_of_decode_are_on_the_sheet_and_in_files() -> Result {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_failed_check_leads_to_its_causes() -> Result {
-    let page = Page::open(DESKTOP, false).await?;
-    page.paste("01 03 06 00 08 42 A4 F1 DE B0 F8").await?;
-    page.click("div.check a.quiet").await?;
-    page.until(".causes li", "The digits of byte 4 are swapped: 08h for 80h (fits by chance: 1 in 7281)")
-        .await?;
-    page.close().await
-}
-
-#[tokio::test(flavor = "multi_thread")]
 async fn only_the_sheet_is_printed() -> Result {
     let page = Page::open_at("sheet.html#text=01+03+00+C8+00+03+84+35", DESKTOP, true).await?;
     page.until(".telegram h2", "Ask unit 1").await?;

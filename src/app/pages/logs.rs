@@ -230,7 +230,7 @@ pub fn Logs(desk: Desk) -> impl IntoView {
                 </section>
                 <section class="card" aria-label="Over time" hidden=ready_too>
                     <div inner_html=Box::new(move || desk.picture.get()) as Drawn></div>
-                    <details class="layout">
+                    <details class="layout" open=true>
                         <summary>"Units and functions"</summary>
                         <div inner_html=Box::new(move || desk.table.get()) as Drawn></div>
                     </details>

@@ -204,8 +204,11 @@ impl Hypothesis {
             Cause::BitFlipped => {
                 message!("a bit of byte {at} is flipped: {was} for {is}", at = at, was = was, is = is)
             }
+            Cause::DigitsSwapped if found.get(at + 1) != self.bytes.get(at + 1) => {
+                message!("digits of bytes {at} and {next} are swapped", at = at, next = at + 1)
+            }
             Cause::DigitsSwapped => {
-                message!("digits at byte {at} are swapped: {was} for {is}", at = at, was = was, is = is)
+                message!("the digits of byte {at} are swapped: {was} for {is}", at = at, was = was, is = is)
             }
             Cause::DigitLost => message!("a digit of byte {at} is lost: it would be {is}", at = at, is = is),
             Cause::BytesSwapped => message!("bytes {at} and {next} are swapped", at = at, next = at + 1),

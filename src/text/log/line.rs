@@ -73,6 +73,8 @@ pub struct Scan {
     strong: Option<Sender>,
     weak: Option<Sender>,
     words_since: usize,
+    /// Decimal numbers are not asked for.
+    hex_only: bool,
 }
 
 /// What a token's digits are.
@@ -95,6 +97,7 @@ impl Scan {
         self.runs.clear();
         (self.time, self.sender, self.port, self.open) = (None, None, None, None);
         (self.strong, self.weak, self.words, self.words_since) = (None, None, 0, 0);
+        self.hex_only = numbers == Some(Numbers::Hex);
         let mut at = from;
         while at < line.len() {
             at = self.same_again(line, at, numbers);
@@ -146,7 +149,9 @@ impl Scan {
             }
             let place = Span::new(at + width, at + width + 2);
             self.hex.push(high << 4 | low);
-            self.decimal.push(high.wrapping_mul(10).wrapping_add(low));
+            if !self.hex_only {
+                self.decimal.push(high.wrapping_mul(10).wrapping_add(low));
+            }
             self.places.push(place);
             run.decimal &= (high < 10) & (low < 10);
             run.tokens += 1;
@@ -158,7 +163,8 @@ impl Scan {
 
     /// The bytes of `run`, decimal only where they must be or are known to be.
     pub fn bytes(&self, run: &Run, numbers: Numbers) -> &[u8] {
-        let decimal = run.decimal && (!run.hex || numbers == Numbers::Decimal) && !run.marked;
+        let decimal =
+            !self.hex_only && run.decimal && (!run.hex || numbers == Numbers::Decimal) && !run.marked;
         &(if decimal { &self.decimal } else { &self.hex })[run.first..run.end]
     }
 
@@ -275,7 +281,9 @@ impl Scan {
 
     fn push(&mut self, hex: u8, decimal: u8, from: usize, to: usize) {
         self.hex.push(hex);
-        self.decimal.push(decimal);
+        if !self.hex_only {
+            self.decimal.push(decimal);
+        }
         self.places.push(Span::new(from, to));
     }
 
