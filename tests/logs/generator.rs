@@ -55,10 +55,18 @@ impl Random {
     }
 }
 
+/// The functions of [`exchange`], the usual ones more often.
+pub const FUNCTIONS: &[u8] = &[1, 2, 3, 3, 3, 4, 5, 6, 15, 16, 23, 100, 101];
+
 /// A request and its response: reads and writes of registers and coils, KEB's long ones, refusals.
 pub fn exchange(random: &mut Random) -> [Sent; 2] {
+    exchange_of(random, FUNCTIONS)
+}
+
+/// The same with one of these functions.
+pub fn exchange_of(random: &mut Random, functions: &[u8]) -> [Sent; 2] {
     let unit = random.of(&[1, 2, 5, 17, 247]);
-    let function = random.of(&[1, 2, 3, 3, 3, 4, 5, 6, 15, 16, 23, 100, 101]);
+    let function = random.of(functions);
     let start = random.of(&[0_u16, 200, 215, 1240, 3216, 8242, 24320, 773]).to_be_bytes();
     let count = 1 + random.below(5);
     let quantity = (count as u16).to_be_bytes();
