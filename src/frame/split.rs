@@ -9,9 +9,10 @@
 
 use super::modbus_serial::BROADCAST;
 use super::profibus_fdl::{Fdl, SC, SD4};
+use super::rules::{self, Rule, Rules};
 use super::{Protocol, modbus_rtu, modbus_tcp, profibus_fdl};
-use crate::field::{Direction, Span};
-use crate::modbus::{Dialect, EXCEPTION, Length, Pdu};
+use crate::field::Span;
+use crate::modbus::{Dialect, EXCEPTION};
 use crate::walk::crc_residue;
 
 /// What begins at a place.
@@ -36,8 +37,8 @@ pub struct Waiting {
 /// What each function's telegrams are long.
 #[derive(Debug)]
 pub struct Splitter {
-    /// Request and response, by function code; `None` for codes that are not known.
-    rules: Vec<Option<[Length; 2]>>,
+    /// By function code; `None` for codes that are not known.
+    rules: Vec<Option<Rules>>,
 }
 
 /// What is known where a telegram may begin.
@@ -61,16 +62,11 @@ pub fn can_split(protocol: &Protocol) -> bool {
 
 impl Splitter {
     pub fn new(dialect: &'static Dialect) -> Self {
-        let rule = |function: u8| {
-            let [request, response] = [Direction::Request, Direction::Response]
-                .map(|direction| Pdu::kind(function, direction, dialect));
-            (request.function == function && response.function == function && function > 0)
-                .then_some([request.length, response.length])
-        };
-        Self { rules: (0..EXCEPTION).map(rule).collect() }
+        Self { rules: rules::all(dialect) }
     }
 
     /// What of `protocol` begins at `place`.
+    #[inline]
     pub fn begins(&self, protocol: &'static Protocol, place: Place<'_>) -> Begins {
         if std::ptr::eq(protocol, &raw const modbus_rtu::PROTOCOL) {
             self.rtu(place)
@@ -94,7 +90,7 @@ impl Splitter {
         match pdu.first() {
             Some(function) if function & EXCEPTION != 0 => [false, pdu.len() == 2],
             Some(function) => match self.rule(*function) {
-                Some(rules) => rules.map(|rule| rule.fits(pdu)),
+                Some(rules) => [rules.request.fits(pdu), rules.response.fits(pdu)],
                 None => [false, false],
             },
             None => [false, false],
@@ -104,16 +100,7 @@ impl Splitter {
     /// How many bytes the PDU of the response to a request has, if that follows from it.
     #[inline]
     pub fn answer_length(&self, request: &[u8]) -> Option<usize> {
-        let [asked, answer] = self.rule(*request.first()?)?;
-        match (asked, answer) {
-            (_, Length::Fixed(length)) => Some(length),
-            // All functions that read so many items have their number here.
-            (Length::Fixed(5) | Length::Counted { at: 9, .. }, Length::Counted { at: 1, unit }) => {
-                let quantity = usize::from(u16::from_be_bytes([*request.get(3)?, *request.get(4)?]));
-                Some(2 + if unit == 1 { quantity.div_ceil(8) } else { quantity * unit })
-            }
-            _ => None,
-        }
+        self.rule(*request.first()?)?.answer_length(request)
     }
 
     /// How many bytes the RTU frame would have that begins with `bytes`: as request, as response.
@@ -122,14 +109,13 @@ impl Splitter {
         if function & EXCEPTION != 0 {
             return [None, Some(2 + AROUND)];
         }
-        let pdu = &bytes[1..];
-        self.rule(*function)
-            .map_or([None, None], |rules| rules.map(|rule| rule.of(pdu).map(|length| length + AROUND)))
+        let whole = |rule: &Rule| rule.length(&bytes[1..]).map(|length| length + AROUND);
+        self.rule(*function).map_or([None, None], |rules| [whole(&rules.request), whole(&rules.response)])
     }
 
     #[inline]
-    fn rule(&self, function: u8) -> Option<[Length; 2]> {
-        self.rules.get(usize::from(function)).copied().flatten()
+    fn rule(&self, function: u8) -> Option<&Rules> {
+        self.rules.get(usize::from(function))?.as_ref()
     }
 
     #[inline]
@@ -151,9 +137,9 @@ impl Splitter {
                 _ => Begins::Nothing,
             };
         }
-        let Some([request, response]) = self.rule(function) else { return Begins::Nothing };
+        let Some(Rules { request, response, .. }) = self.rule(function) else { return Begins::Nothing };
         let pdu = &bytes[1..];
-        let whole = |rule: Length| rule.of(pdu).map(|length| length + AROUND);
+        let whole = |rule: &Rule| rule.length(pdu).map(|length| length + AROUND);
         let (asks, answers) = (whole(request), whole(response).filter(|_| unit != BROADCAST));
         if let (Some(awaited), Some(length)) = (awaited, answers) {
             // No telegram is longer than the one that is awaited, and none has another length.
@@ -226,7 +212,7 @@ const AROUND: usize = modbus_rtu::RTU.around();
 /// Whether a frame of `length` begins `bytes` whose PDU is of the length `rule` and whose check is
 /// right.
 #[inline]
-fn right(bytes: &[u8], length: Option<usize>, rule: Option<Length>, more: Begins) -> Begins {
+fn right(bytes: &[u8], length: Option<usize>, rule: Option<&Rule>, more: Begins) -> Begins {
     // Nothing tells how long it is: it cannot be told from what follows, unless bytes are missing.
     let Some(length) = length else { return if bytes.len() < 12 { more } else { Begins::Nothing } };
     if length > modbus_rtu::RTU.longest() || length < modbus_rtu::RTU.shortest() {

@@ -36,6 +36,13 @@ fn bytes<'a>(entry: &Entry, data: &'a [u8]) -> &'a [u8] {
     Span::new(from, from + usize::from(entry.length)).of(data)
 }
 
+/// Whether two telegrams are the same. Their checks, at the end, tell most apart.
+#[inline]
+fn alike(a: &Entry, b: &Entry, data: &[u8]) -> bool {
+    let (one, other) = (bytes(a, data), bytes(b, data));
+    (one.len() == other.len()) & (one.last() == other.last()) && one == other
+}
+
 impl Habits {
     fn of(entries: &[Entry], data: &[u8]) -> Self {
         let (mut logger, mut requests, mut responses) = (0_i64, [0_usize; 2], [0_usize; 2]);
@@ -53,9 +60,7 @@ impl Habits {
                 Hint::Other => logger -= side,
                 _ => {}
             }
-            let same = previous.is_some_and(|it| {
-                it.port == entry.port && it.length == entry.length && bytes(it, data) == bytes(entry, data)
-            });
+            let same = previous.is_some_and(|it| alike(it, entry, data) && it.port == entry.port);
             doubled = same && !doubled;
             let counts = match side {
                 1 => Some(&mut requests),
@@ -94,10 +99,7 @@ impl Port {
         let entry = entries[index];
         let own = bytes(&entry, data);
         let protocol = entry.protocol();
-        let same = self.previous.filter(|before| {
-            let before = &entries[*before];
-            before.length == entry.length && bytes(before, data) == own
-        });
+        let same = self.previous.filter(|before| alike(&entries[*before], &entry, data));
         if habits.twice
             && same.is_some_and(|before| {
                 entries[before].role != Role::Copy && entries[before].hint == entry.hint
@@ -123,7 +125,7 @@ impl Port {
             Hint::Other if !habits.logger_asks => Some(Direction::Request),
             Hint::Logger | Hint::Other => Some(Direction::Response),
         };
-        let alike = last.is_some_and(|(request, _)| bytes(&entries[request], data) == own);
+        let again = self.echoed && last.is_some_and(|(request, _)| alike(&entries[request], &entry, data));
         let echoes = habits.echo && repeats && !self.echoed && (entry.sides[0] || entry.sides == [false; 2]);
         let direction = match (entry.sides, hinted) {
             _ if echoes => Direction::Request,
@@ -148,7 +150,7 @@ impl Port {
             (Direction::Request, None) => entries[index].role = Role::Broadcast,
             (Direction::Request, Some(exchange)) => {
                 // Polls are alike, too: only who asks again at once tries again.
-                if repeats || (self.echoed && alike) {
+                if repeats || again {
                     entries[index].role = Role::Retry;
                 }
                 self.echoed = false;

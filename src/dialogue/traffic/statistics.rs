@@ -1,6 +1,6 @@
 //! A log in numbers.
 
-use std::collections::BTreeMap;
+use std::collections::HashMap;
 
 use super::collect::Traffic;
 use super::entry::{Entry, Role};
@@ -72,7 +72,7 @@ struct Gathered {
 pub fn statistics(traffic: &Traffic) -> Statistics {
     let entries = traffic.entries();
     let mut all = Statistics::default();
-    let mut dialogs: BTreeMap<(u16, Option<u8>, u8), Gathered> = BTreeMap::new();
+    let mut dialogs = Dialogs { all: Vec::new(), places: HashMap::new(), recent: [0; 256] };
     for entry in entries {
         if entry.role == Role::Discarded {
             all.bytes_discarded += usize::from(entry.length);
@@ -102,16 +102,42 @@ pub fn statistics(traffic: &Traffic) -> Statistics {
             Role::Plain | Role::Copy | Role::Discarded => {}
         }
         if entry.role != Role::Echo {
-            let key = (entry.port, entry.unit, entry.plain_function());
-            count(dialogs.entry(key).or_default(), entry, entries);
+            count(dialogs.of(entry), entry, entries);
         }
     }
     let whole = all.times.map_or(0, |(first, last)| last - first);
-    all.dialogs = dialogs
-        .into_iter()
-        .map(|((port, unit, function), gathered)| Dialog { port, unit, function, ..gathered.close(whole) })
-        .collect();
+    all.dialogs = dialogs.all.into_iter().map(|gathered| gathered.close(whole)).collect();
+    all.dialogs.sort_unstable_by_key(|dialog| (dialog.port, dialog.unit, dialog.function));
     all
+}
+
+/// What is gathered so far, and where whose numbers are.
+struct Dialogs {
+    all: Vec<Gathered>,
+    places: HashMap<(u16, Option<u8>, u8), usize>,
+    /// The last place for each [`shelf`](Self::of) of keys, so that hardly any is looked up.
+    recent: [usize; 256],
+}
+
+impl Dialogs {
+    fn of(&mut self, entry: &Entry) -> &mut Gathered {
+        let (port, unit, function) = (entry.port, entry.unit, entry.plain_function());
+        let shelf = usize::from(unit.unwrap_or_default() ^ function.rotate_left(4) ^ port as u8);
+        let recent = self.recent[shelf];
+        let same = |it: &Gathered| {
+            (it.dialog.port, it.dialog.unit, it.dialog.function) == (port, unit, function)
+        };
+        if self.all.get(recent).is_none_or(|it| !same(it)) {
+            let fresh = self.all.len();
+            let place = *self.places.entry((port, unit, function)).or_insert(fresh);
+            if place == fresh {
+                let dialog = Dialog { port, unit, function, ..Dialog::default() };
+                self.all.push(Gathered { dialog, ..Gathered::default() });
+            }
+            self.recent[shelf] = place;
+        }
+        &mut self.all[self.recent[shelf]]
+    }
 }
 
 fn count(gathered: &mut Gathered, entry: &Entry, entries: &[Entry]) {
