@@ -27,9 +27,11 @@ const TELEGRAMS: usize = 200_000;
 /// Functions that all three know.
 const FUNCTIONS: &[u8] = &[1, 2, 3, 3, 3, 4, 5, 6, 15, 16];
 
+const MOST_REGISTERS: usize = 16;
+
 fn telegrams() -> Vec<Sent> {
     let mut random = Random(2026);
-    (0..TELEGRAMS / 2).flat_map(|_| exchange_of(&mut random, FUNCTIONS)).collect()
+    (0..TELEGRAMS / 2).flat_map(|_| exchange_of(&mut random, FUNCTIONS, MOST_REGISTERS)).collect()
 }
 
 /// Buslens, from the raw bytes to the finished index.

@@ -60,15 +60,15 @@ pub const FUNCTIONS: &[u8] = &[1, 2, 3, 3, 3, 4, 5, 6, 15, 16, 23, 100, 101];
 
 /// A request and its response: reads and writes of registers and coils, KEB's long ones, refusals.
 pub fn exchange(random: &mut Random) -> [Sent; 2] {
-    exchange_of(random, FUNCTIONS)
+    exchange_of(random, FUNCTIONS, 5)
 }
 
-/// The same with one of these functions.
-pub fn exchange_of(random: &mut Random, functions: &[u8]) -> [Sent; 2] {
+/// The same with one of these functions and at most so many registers.
+pub fn exchange_of(random: &mut Random, functions: &[u8], most: usize) -> [Sent; 2] {
     let unit = random.of(&[1, 2, 5, 17, 247]);
     let function = random.of(functions);
     let start = random.of(&[0_u16, 200, 215, 1240, 3216, 8242, 24320, 773]).to_be_bytes();
-    let count = 1 + random.below(5);
+    let count = 1 + random.below(most);
     let quantity = (count as u16).to_be_bytes();
     let width = if function >= 100 { 4 } else { 2 };
     let data = random.bytes(count * width);

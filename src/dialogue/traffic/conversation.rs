@@ -36,25 +36,25 @@ fn bytes<'a>(entry: &Entry, data: &'a [u8]) -> &'a [u8] {
     Span::new(from, from + usize::from(entry.length)).of(data)
 }
 
-/// Whether two telegrams are the same. Their checks, at the end, tell most apart.
+/// Whether two telegrams are the same. Their lengths and checks tell most apart, in one step.
 #[inline]
 fn alike(a: &Entry, b: &Entry, data: &[u8]) -> bool {
     let (one, other) = (bytes(a, data), bytes(b, data));
-    (one.len() == other.len()) & (one.last() == other.last()) && one == other
+    let [last, other_last] = [one, other].map(|bytes| bytes.last().copied().unwrap_or_default());
+    (one.len() ^ other.len()) | usize::from(last ^ other_last) == 0 && one == other
 }
 
 impl Habits {
     fn of(entries: &[Entry], data: &[u8]) -> Self {
-        let (mut logger, mut requests, mut responses) = (0_i64, [0_usize; 2], [0_usize; 2]);
+        let mut logger = 0_i64;
+        // How many telegrams are only requests, either, only responses: at first, and at once again.
+        let mut counts = [[0_usize; 2]; 3];
         let mut previous: Option<&Entry> = None;
         // A third copy is none of the second.
         let mut doubled = false;
         for entry in entries.iter().filter(|entry| entry.role != Role::Discarded) {
-            let side = match entry.sides {
-                [true, false] => 1,
-                [false, true] => -1,
-                _ => 0,
-            };
+            let [asks, answers] = entry.sides.map(i64::from);
+            let side = asks - answers;
             match entry.hint {
                 Hint::Logger => logger += side,
                 Hint::Other => logger -= side,
@@ -62,17 +62,10 @@ impl Habits {
             }
             let same = previous.is_some_and(|it| alike(it, entry, data) && it.port == entry.port);
             doubled = same && !doubled;
-            let counts = match side {
-                1 => Some(&mut requests),
-                -1 => Some(&mut responses),
-                _ => None,
-            };
-            if let Some([all, again]) = counts {
-                *all += usize::from(!doubled);
-                *again += usize::from(doubled);
-            }
+            counts[(1 - side) as usize][usize::from(doubled)] += 1;
             previous = Some(entry);
         }
+        let [requests, _, responses] = counts;
         let most = |[all, again]: [usize; 2]| again > 0 && again * 10 >= all * 6;
         // Nobody answers twice: where the responses are there twice, it is the log.
         let twice = most(responses) && responses[0] > 1;
