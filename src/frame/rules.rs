@@ -2,7 +2,7 @@
 //! no branch depends on which function comes next.
 
 use crate::field::Direction;
-use crate::modbus::{Dialect, EXCEPTION, Length, Pdu};
+use crate::modbus::{Dialect, EXCEPTION, LONGEST_PDU, Length, Pdu};
 
 /// How long the PDUs of a function are.
 #[derive(Clone, Copy, Debug)]
@@ -58,6 +58,12 @@ impl Rules {
             _ => return None,
         };
         known.then(|| usize::from(base) + (quantity * usize::from(bits)).div_ceil(8))
+    }
+
+    /// Whether the response to a request can hold what is asked for, and there is something.
+    pub fn can_be_answered(&self, request: &[u8]) -> bool {
+        let length = self.answer_length(request).filter(|_| self.answer.bits > 0);
+        length.is_none_or(|length| (3..=LONGEST_PDU).contains(&length))
     }
 }
 

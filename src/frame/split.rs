@@ -137,31 +137,30 @@ impl Splitter {
                 _ => Begins::Nothing,
             };
         }
-        let Some(Rules { request, response, .. }) = self.rule(function) else { return Begins::Nothing };
+        let Some(rules) = self.rule(function) else { return Begins::Nothing };
+        let Rules { request, response, .. } = rules;
         let pdu = &bytes[1..];
         let whole = |rule: &Rule| rule.length(pdu).map(|length| length + AROUND);
         let (asks, answers) = (whole(request), whole(response).filter(|_| unit != BROADCAST));
-        if let (Some(awaited), Some(length)) = (awaited, answers) {
+        let asked = || right(bytes, asks, Some(request), more);
+        let answered = || right(bytes, answers, Some(response), more);
+        let fits = |awaited: Waiting| {
+            answers.is_some_and(|it| awaited.length.is_none_or(|length| usize::from(length) == it))
+        };
+        if awaited.is_some_and(fits) {
             // No telegram is longer than the one that is awaited, and none has another length.
-            if awaited.length.is_none_or(|it| usize::from(it) == length) {
-                match right(bytes, Some(length), Some(response), more) {
-                    Begins::Nothing => {}
-                    begins => return begins,
-                }
-                return if asks == answers {
-                    Begins::Nothing
-                } else {
-                    right(bytes, asks, Some(request), more)
-                };
-            }
+            return match answered() {
+                Begins::Nothing => asked(),
+                begins => begins,
+            };
         }
-        match right(bytes, asks, Some(request), more) {
-            // Where too little is known of the request's length, it may be a response all the same.
-            Begins::More => match right(bytes, answers, Some(response), more) {
-                Begins::Telegram(length) => Begins::Telegram(length),
-                _ => Begins::More,
+        match asked() {
+            Begins::Nothing => answered(),
+            // Nobody asks for what no response can hold, if it can be a response itself.
+            Begins::Telegram(_) if asks != answers && !rules.can_be_answered(pdu) => match answered() {
+                Begins::Nothing => asked(),
+                begins => begins,
             },
-            Begins::Nothing if asks != answers => right(bytes, answers, Some(response), more),
             begins => begins,
         }
     }

@@ -71,9 +71,9 @@ pub fn exchange_of(random: &mut Random, functions: &[u8], most: usize) -> [Sent;
     let count = 1 + random.below(most);
     let quantity = (count as u16).to_be_bytes();
     let width = if function >= 100 { 4 } else { 2 };
-    let data = random.bytes(count * width);
-    let one = random.bytes(2);
-    let coils = random.bytes(1);
+    let data = values(random, count * width);
+    let one = values(random, 2);
+    let coils = random.bytes(count.div_ceil(8));
     let head = [unit, function];
     let counted = |data: &[u8]| [&head[..], &[data.len() as u8], data].concat();
     let asks = [&head[..], &start, &quantity].concat();
@@ -88,7 +88,9 @@ pub fn exchange_of(random: &mut Random, functions: &[u8], most: usize) -> [Sent;
             let both = [&head[..], &start, &one].concat();
             (both.clone(), both)
         }
-        15 => ([&head[..], &start, &quantity, &[1], &coils].concat(), asks.clone()),
+        15 => {
+            ([&head[..], &start, &quantity, &[coils.len() as u8], &coils].concat(), asks.clone())
+        }
         23 => {
             let writes =
                 [&head[..], &start, &quantity, &start, &quantity, &[data.len() as u8], &data].concat();
@@ -102,6 +104,12 @@ pub fn exchange_of(random: &mut Random, functions: &[u8], most: usize) -> [Sent;
         Sent { direction: Direction::Request, body: request },
         Sent { direction: Direction::Response, body: response },
     ]
+}
+
+/// Bytes of registers: as devices have them, most are small numbers, and many 0.
+fn values(random: &mut Random, count: usize) -> Vec<u8> {
+    let most = random.of(&[0, 1, 4, 16]);
+    random.bytes(count).iter().enumerate().map(|(at, byte)| if at % 4 < most || most > 4 { *byte } else { 0 }).collect()
 }
 
 /// Some exchanges, one after the other.

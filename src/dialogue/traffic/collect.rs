@@ -455,7 +455,7 @@ impl Traffic {
     fn broken(&mut self, index: usize, piece: &[u8], from: usize) {
         const LONGEST: usize = 300;
         if piece.len() > LONGEST {
-            let kept = self.keep(piece);
+            let kept = keep(&mut self.data, piece);
             return self.discard(index, piece, from, kept);
         }
         let main = self.protocol;
@@ -484,9 +484,9 @@ impl Traffic {
         let main = self.main(index);
         let port = usize::from(self.lanes[index].row(from).port);
         let mut in_step = self.lanes[index].in_step;
-        // All that is done with becomes entries, one behind the other: it is kept at once.
-        let kept = self.data.len();
-        self.data.extend_from_slice(bytes);
+        // All that is done with becomes entries, one behind the other: with the first of them, all of
+        // it is kept.
+        let mut kept = None;
         // What lies before `at` and is no telegram begins at `garbage`.
         let (mut garbage, mut at) = (0, std::mem::take(&mut self.lanes[index].barren));
         while at < bytes.len() {
@@ -494,6 +494,7 @@ impl Traffic {
             let place = Place { bytes: &bytes[at..], last, in_step, waiting };
             match self.splitter.begins(main, place) {
                 Begins::Telegram(length) => {
+                    let kept = *kept.get_or_insert_with(|| keep(&mut self.data, bytes));
                     if garbage < at {
                         self.unframed(index, &bytes[garbage..at], from + garbage, kept + garbage);
                     }
@@ -511,6 +512,7 @@ impl Traffic {
                 Begins::Nothing => {
                     (at, in_step) = (at + 1, false);
                     if at - garbage >= HOPELESS {
+                        let kept = *kept.get_or_insert_with(|| keep(&mut self.data, bytes));
                         self.discard(index, &bytes[garbage..at], from + garbage, kept + garbage);
                         garbage = at;
                     }
@@ -518,10 +520,13 @@ impl Traffic {
             }
         }
         if last && garbage < at {
+            let kept = *kept.get_or_insert_with(|| keep(&mut self.data, bytes));
             self.unframed(index, &bytes[garbage..at], from + garbage, kept + garbage);
             garbage = at;
         }
-        self.data.truncate(kept + garbage);
+        if let Some(kept) = kept {
+            self.data.truncate(kept + garbage);
+        }
         let lane = &mut self.lanes[index];
         (lane.in_step, lane.barren) = (in_step, at - garbage);
         garbage
@@ -552,13 +557,6 @@ impl Traffic {
         }
     }
 
-    /// Keeps bytes of an entry; returns where.
-    fn keep(&mut self, bytes: &[u8]) -> usize {
-        let kept = self.data.len();
-        self.data.extend_from_slice(bytes);
-        kept
-    }
-
     fn add(
         &mut self,
         index: usize,
@@ -567,7 +565,7 @@ impl Traffic {
         protocol: &'static Protocol,
         verdict: Verdict,
     ) {
-        let kept = self.keep(bytes);
+        let kept = keep(&mut self.data, bytes);
         self.push(index, bytes, from, kept, protocol, verdict, Role::Plain);
     }
 
@@ -701,6 +699,13 @@ impl Lane {
         let gone = self.rows.partition_point(|row| row.from <= 0).saturating_sub(1);
         self.rows.drain(..gone);
     }
+}
+
+/// Keeps bytes; returns where.
+fn keep(data: &mut Vec<u8>, bytes: &[u8]) -> usize {
+    let kept = data.len();
+    data.extend_from_slice(bytes);
+    kept
 }
 
 fn number(protocol: &'static Protocol) -> u8 {
