@@ -252,19 +252,40 @@ mod tests {
     fn the_request_that_waits_decides_between_a_telegram_and_its_beginning() {
         // A request from 02xxh on that ends in 00: as a response of two bytes, it is right one byte
         // earlier.
-        let found = (0..=u16::MAX).find_map(|n| {
-            let [high, low] = n.to_be_bytes();
-            let body = [1, 3, 2, high, low];
-            let check = (crate::walk::CRC_16_MODBUS.wire(&body) as u16).to_be_bytes();
-            let long = [1, 3, 2, high, low, check[0], check[1], 0];
-            (crc_residue(&long) == 0).then_some(long)
+        let found = (0x0100..0xF700_u16).find_map(|n| {
+            let [unit, high] = n.to_be_bytes();
+            let short = with_check(&[unit, 3, 2, high, 0]);
+            // As a request, it is for so many registers.
+            (1..=125).contains(&short[5]).then(|| [short, vec![0]].concat())
         });
         let both = found.expect("a CRC stays right when a zero follows");
         assert_eq!(begins(&both, None), Begins::Telegram(8), "a request is expected");
-        let waiting = Waiting { unit: 1, function: 3, length: Some(7) };
+        let waiting = Waiting { unit: both[0], function: 3, length: Some(7) };
         assert_eq!(begins(&both, Some(waiting)), Begins::Telegram(7));
         let longer = Waiting { length: Some(9), ..waiting };
         assert_eq!(begins(&both, Some(longer)), Begins::Telegram(8), "the response is of another length");
+    }
+
+    fn with_check(body: &[u8]) -> Vec<u8> {
+        [body, &(crate::walk::CRC_16_MODBUS.wire(body) as u16).to_be_bytes()].concat()
+    }
+
+    #[test]
+    fn a_response_as_long_as_a_request_would_be_is_found() {
+        // As a request it would write 0 registers, which none does.
+        let response = with_check(&[5, 23, 8, 1, 2, 3, 4, 5, 6, 7, 0]);
+        assert_eq!(begins(&response, None), Begins::Telegram(13));
+    }
+
+    #[test]
+    fn a_request_for_more_than_a_response_can_hold_is_rather_a_response() {
+        // A CRC stays right when 00 follows: a response with four bytes ends in 00, and as a request it
+        // would end before that.
+        let both = |quantity: u8| [with_check(&[5, 3, 4, 0, quantity, 10]), vec![0]].concat();
+        assert_eq!(begins(&both(200), None), Begins::Telegram(9));
+        assert_eq!(begins(&both(0), None), Begins::Telegram(8), "a request is expected");
+        let waiting = Waiting { unit: 5, function: 3, length: Some(9) };
+        assert_eq!(begins(&both(0), Some(waiting)), Begins::Telegram(9));
     }
 
     #[test]
