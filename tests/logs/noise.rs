@@ -23,6 +23,12 @@ impl Stream {
         self.bytes.extend_from_slice(telegram);
     }
 
+    /// Whether the byte at `at` is of no intact telegram.
+    fn in_noise(&self, at: usize) -> bool {
+        let next = self.intact.partition_point(|(intact, length)| intact + length <= at);
+        self.intact.get(next).is_none_or(|(intact, _)| *intact > at)
+    }
+
     /// Bytes that hold no intact telegram, but may be right by chance.
     fn noise(&mut self, bytes: &[u8]) {
         self.bytes.extend_from_slice(bytes);
@@ -212,10 +218,8 @@ fn what_is_intact_is_found_and_nothing_is_invented() {
 /// Whether a right run of bytes that was not sent as a telegram is one all the same to everybody who
 /// listens: it begins in noise. Who begins inside an intact telegram, or ends it elsewhere, is wrong.
 fn by_chance(stream: &Stream, (at, length): (usize, usize)) -> bool {
-    let next = stream.intact.partition_point(|(intact, length)| intact + length <= at);
-    let in_noise = stream.intact.get(next).is_none_or(|(intact, _)| *intact > at);
     let (body, check) = stream.bytes[at..at + length].split_at(length - 2);
-    in_noise && CRC_16_MODBUS.wire(body) == u64::from(u16::from_be_bytes([check[0], check[1]]))
+    stream.in_noise(at) && CRC_16_MODBUS.wire(body) == u64::from(u16::from_be_bytes([check[0], check[1]]))
 }
 
 /// However the bytes come in, the telegrams are the same.
@@ -265,10 +269,12 @@ fn frames_of_tcp_are_found_again_after_noise() {
         .map(|entry| (entry.offset as usize, entry.length.into()))
         .collect();
     let intact = stream.intact.iter().filter(|place| found.binary_search(place).is_ok()).count();
-    let invented = found.iter().filter(|place| stream.intact.binary_search(place).is_err()).count();
-    println!("over TCP: {intact} of {} found, {invented} others", stream.intact.len());
-    assert!(intact as f64 / stream.intact.len() as f64 >= 0.9995);
-    assert!(invented * 10_000 <= stream.intact.len());
+    let others = found.iter().filter(|place| stream.intact.binary_search(place).is_err());
+    let (chance, invented): (Vec<_>, Vec<_>) = others.partition(|(at, _)| stream.in_noise(*at));
+    let all = stream.intact.len();
+    println!("over TCP: {intact} of {all} found, {} invented, {} by chance", invented.len(), chance.len());
+    assert!(intact as f64 / all as f64 >= 0.9995);
+    assert!(invented.len() * 10_000 <= all && chance.len() * 1000 <= all);
 }
 
 /// Twice as many bytes take about twice as long whatever they are: what is looked at is counted by
