@@ -88,9 +88,7 @@ pub fn exchange_of(random: &mut Random, functions: &[u8], most: usize) -> [Sent;
             let both = [&head[..], &start, &one].concat();
             (both.clone(), both)
         }
-        15 => {
-            ([&head[..], &start, &quantity, &[coils.len() as u8], &coils].concat(), asks.clone())
-        }
+        15 => ([&head[..], &start, &quantity, &[coils.len() as u8], &coils].concat(), asks.clone()),
         23 => {
             let writes =
                 [&head[..], &start, &quantity, &start, &quantity, &[data.len() as u8], &data].concat();
@@ -109,7 +107,12 @@ pub fn exchange_of(random: &mut Random, functions: &[u8], most: usize) -> [Sent;
 /// Bytes of registers: as devices have them, most are small numbers, and many 0.
 fn values(random: &mut Random, count: usize) -> Vec<u8> {
     let most = random.of(&[0, 1, 4, 16]);
-    random.bytes(count).iter().enumerate().map(|(at, byte)| if at % 4 < most || most > 4 { *byte } else { 0 }).collect()
+    random
+        .bytes(count)
+        .iter()
+        .enumerate()
+        .map(|(at, byte)| if at % 4 < most || most > 4 { *byte } else { 0 })
+        .collect()
 }
 
 /// Some exchanges, one after the other.

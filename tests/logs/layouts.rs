@@ -311,6 +311,197 @@ static PROGRAMS: &[Program] = &[
             }
         },
     },
+    Program {
+        layout: "",
+        frame: rtu,
+        write: |text, bytes, asks, n| {
+            // The count before the bytes, the direction behind the time, in the middle of a line.
+            let word = if asks { "OUT" } else { "IN" };
+            writeln!(text, "{}, {word}, ch 2, {:3}, {}", clock(n), bytes.len(), joined(bytes, ",", upper))
+                .unwrap();
+        },
+    },
+    Program {
+        layout: "",
+        frame: rtu,
+        write: |text, bytes, asks, n| {
+            // logfmt, the digits without anything between.
+            writeln!(
+                text,
+                "ts=2026-04-01T{}.{:03}Z level=debug dir={} len={} hex={}",
+                clock(n),
+                n % 1000,
+                if asks { "tx" } else { "rx" },
+                bytes.len(),
+                joined(bytes, "", lower)
+            )
+            .unwrap();
+        },
+    },
+    Program {
+        layout: "",
+        frame: rtu,
+        write: |text, bytes, asks, n| {
+            // An object of JSON in each line.
+            writeln!(
+                text,
+                "{{\"time\":\"2026-04-01T{}.{:03}+01:00\",\"kind\":\"{}\",\"data\":\"{}\"}}",
+                clock(n),
+                n % 1000,
+                if asks { "request" } else { "response" },
+                joined(bytes, " ", upper)
+            )
+            .unwrap();
+        },
+    },
+    Program {
+        layout: "",
+        frame: rtu,
+        write: |text, bytes, asks, n| {
+            // strace of a serial port.
+            let escapes: String = bytes.iter().map(|byte| format!("\\x{byte:02x}")).collect();
+            let count = bytes.len();
+            if asks {
+                writeln!(text, "{}.{:06} write(3, \"{escapes}\", {count}) = {count}", clock(n), n).unwrap();
+            } else {
+                writeln!(text, "{}.{:06} read(3, \"{escapes}\", 256) = {count}", clock(n), n).unwrap();
+            }
+        },
+    },
+    Program {
+        layout: "",
+        frame: rtu,
+        write: |text, bytes, asks, n| {
+            // Decimal numbers with odd separators.
+            let list = joined(bytes, " ; ", |byte| byte.to_string());
+            writeln!(text, "{} | {} | {list}", clock(n), if asks { "send" } else { "recv" }).unwrap();
+        },
+    },
+    Program {
+        layout: "",
+        frame: rtu,
+        write: |text, bytes, asks, _| {
+            // As a list in a program's code, three digits each.
+            let list = joined(bytes, " ", |byte| format!("{byte:03}"));
+            writeln!(text, "{} {list}", if asks { "Tx:" } else { "Rx:" }).unwrap();
+        },
+    },
+    Program {
+        layout: "",
+        frame: rtu,
+        write: |text, bytes, asks, n| {
+            // The kernel's way to print: seconds since the start.
+            writeln!(
+                text,
+                "[{:5}.{:06}] ttyUSB0: {} {}",
+                12 + n / 100,
+                n % 100 * 10_000,
+                if asks { "TX" } else { "RX" },
+                joined(bytes, " ", lower)
+            )
+            .unwrap();
+        },
+    },
+    Program {
+        layout: "",
+        frame: rtu,
+        write: |text, bytes, asks, n| {
+            // syslog.
+            writeln!(
+                text,
+                "Apr  1 {} gateway mbusd[2417]: {} ({} bytes): {}",
+                clock(n),
+                if asks { "request" } else { "response" },
+                bytes.len(),
+                joined(bytes, " ", |byte| format!("0x{byte:02x}"))
+            )
+            .unwrap();
+        },
+    },
+    Program {
+        layout: "",
+        frame: rtu,
+        write: |text, bytes, asks, n| {
+            // A date as Germans write it, and the bytes in brackets each.
+            writeln!(
+                text,
+                "01.04.2026 {},{:03}  {}  [{}]",
+                clock(n),
+                n % 1000,
+                if asks { "==>" } else { "<==" },
+                joined(bytes, "] [", upper)
+            )
+            .unwrap();
+        },
+    },
+    Program {
+        layout: "",
+        frame: rtu,
+        write: |text, bytes, asks, n| {
+            // Columns parted by tabs, a counter first.
+            writeln!(
+                text,
+                "{n}\t{}\t{}\t{}\tOK",
+                clock(n),
+                if asks { "Request" } else { "Answer" },
+                joined(bytes, " ", upper)
+            )
+            .unwrap();
+        },
+    },
+    Program {
+        layout: "",
+        frame: tcp,
+        write: |text, bytes, asks, n| {
+            let (from, to) =
+                if asks { ("10.0.0.5:50112", "10.0.0.9:502") } else { ("10.0.0.9:502", "10.0.0.5:50112") };
+            writeln!(
+                text,
+                "{} {from} > {to}: {} {}",
+                clock(n),
+                if asks { "query" } else { "response" },
+                joined(bytes, " ", lower)
+            )
+            .unwrap();
+        },
+    },
+    Program {
+        layout: "",
+        frame: rtu,
+        write: |text, bytes, asks, n| {
+            // A header line, then rows of eight bytes.
+            writeln!(text, "{} {} {} bytes", clock(n), if asks { "TX" } else { "RX" }, bytes.len()).unwrap();
+            for part in bytes.chunks(8) {
+                writeln!(text, "  {}", joined(part, " ", upper)).unwrap();
+            }
+            text.push('\n');
+        },
+    },
+    Program {
+        layout: "",
+        frame: rtu,
+        write: |text, bytes, asks, n| {
+            // Arrows of Unicode, milliseconds since 1970, words of two bytes.
+            let words: Vec<String> = bytes.chunks(2).map(|pair| joined(pair, "", upper)).collect();
+            writeln!(
+                text,
+                "{}{:03} {} {}",
+                1_775_000_000 + n,
+                n % 1000,
+                if asks { "→" } else { "←" },
+                words.join(" ")
+            )
+            .unwrap();
+        },
+    },
+    Program {
+        layout: "",
+        frame: |sent, _| sent.ascii(),
+        write: |text, bytes, asks, n| {
+            writeln!(text, "{} {} :{}", clock(n), if asks { "TX" } else { "RX" }, joined(bytes, "", upper))
+                .unwrap();
+        },
+    },
 ];
 
 /// The log of a program, and the telegrams in it.
@@ -431,13 +622,10 @@ fn each_byte_knows_its_place_in_the_log() {
             for (place, byte) in line.places.iter().zip(&line.bytes) {
                 let digits = &text[place.from..place.to];
                 let plain = digits.trim_start_matches("0x").trim_start_matches("\\x").trim_end_matches('h');
-                let value = match program.layout {
-                    "nmodbus" => plain.parse().ok(),
-                    _ => u8::from_str_radix(plain, 16).ok(),
-                };
+                let values = [u8::from_str_radix(plain, 16).ok(), plain.parse().ok()];
                 // A string is one place for all of its bytes, each character one.
                 assert!(
-                    value == Some(*byte) || digits.len() == 1,
+                    values.contains(&Some(*byte)) || digits.len() == 1,
                     "layout {index}: {digits:?} for {byte:02X}"
                 );
             }

@@ -204,10 +204,7 @@ fn what_is_intact_is_found_and_nothing_is_invented() {
             }
         }
         let share = found as f64 / intact as f64;
-        println!(
-            "{name:30} {intact:>9} {found:>9} {invented:>9} {chance:>9} {:>9.4} %",
-            share * 100.0
-        );
+        println!("{name:30} {intact:>9} {found:>9} {invented:>9} {chance:>9} {:>9.4} %", share * 100.0);
         if share < 0.9995 || invented * 10_000 > intact || chance * 1000 > intact {
             failed.push(*name);
         }
@@ -270,7 +267,7 @@ fn frames_of_tcp_are_found_again_after_noise() {
         .collect();
     let intact = stream.intact.iter().filter(|place| found.binary_search(place).is_ok()).count();
     let others = found.iter().filter(|place| stream.intact.binary_search(place).is_err());
-    let (chance, invented): (Vec<_>, Vec<_>) = others.partition(|(at, _)| stream.in_noise(*at));
+    let (chance, invented): (Vec<&(usize, usize)>, Vec<_>) = others.partition(|(at, _)| stream.in_noise(*at));
     let all = stream.intact.len();
     println!("over TCP: {intact} of {all} found, {} invented, {} by chance", invented.len(), chance.len());
     assert!(intact as f64 / all as f64 >= 0.9995);

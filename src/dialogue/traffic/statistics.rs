@@ -124,9 +124,8 @@ impl Dialogs {
         let (port, unit, function) = (entry.port, entry.unit, entry.plain_function());
         let shelf = usize::from(unit.unwrap_or_default() ^ function.rotate_left(4) ^ port as u8);
         let recent = self.recent[shelf];
-        let same = |it: &Gathered| {
-            (it.dialog.port, it.dialog.unit, it.dialog.function) == (port, unit, function)
-        };
+        let same =
+            |it: &Gathered| (it.dialog.port, it.dialog.unit, it.dialog.function) == (port, unit, function);
         if self.all.get(recent).is_none_or(|it| !same(it)) {
             let fresh = self.all.len();
             let place = *self.places.entry((port, unit, function)).or_insert(fresh);
