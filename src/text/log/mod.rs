@@ -209,7 +209,12 @@ impl Reader {
         };
         let good = |run: &&Run| run.len() >= least(run);
         let several = self.scan.runs.iter().filter(|run| run.len() >= 4 && run.said).count() > 1;
-        let best = self.scan.runs.iter().filter(good).max_by_key(|run| (run.marked, run.len()));
+        // Names and addresses can be hex, too; but what is said to be sent or received is no name.
+        let weight = |run: &&Run| {
+            let telegram = run.said && run.len() >= 4;
+            (run.marked && (run.tokens() > 1 || telegram), telegram, run.len())
+        };
+        let best = self.scan.runs.iter().filter(good).max_by_key(weight);
         let Some(best) = best else { return self.without_bytes(line, time, sink) };
         let header = self.header.as_mut().filter(|_| alone || row.is_some());
         let joined = header.as_ref().is_some_and(|header| header.row > 0);

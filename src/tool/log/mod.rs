@@ -116,7 +116,12 @@ pub fn decode_file(file: &[u8], reading: &Reading, options: Options) -> Result<R
         log => log?,
     };
     if reading.marks.is_none() && reading.input != Input::Binary && log.is_plain() {
-        return Ok(decode(&String::from_utf8_lossy(file), options));
+        let report = decode(&String::from_utf8_lossy(file), options);
+        let right = report.telegrams.iter().filter(|telegram| telegram.verdict == Verdict::Right).count();
+        // Counters and remarks beside the bytes are told apart by a log's reader only.
+        if right >= log.right() {
+            return Ok(report);
+        }
     }
     Ok(log.whole_report(&file))
 }
@@ -265,10 +270,14 @@ impl Log {
         let Format::Text { layout: None, numbers: Numbers::Hex, tells: false } = self.format else {
             return false;
         };
-        let right = self.entries().iter().filter(|entry| entry.verdict == Verdict::Right).count();
         // Prose between telegrams would be marked, word for word.
-        let prose = right > 2 && !self.unread.is_empty();
+        let prose = self.right() > 2 && !self.unread.is_empty();
         self.transcoded.is_none() && !prose
+    }
+
+    /// How many telegrams have a right check.
+    fn right(&self) -> usize {
+        self.entries().iter().filter(|entry| entry.verdict == Verdict::Right && entry.counts()).count()
     }
 
     /// How many directions of connections carry no telegrams.
