@@ -687,6 +687,88 @@ fn several_telegrams_in_a_line_and_one_printed_twice() {
     assert_found(text.as_bytes(), &truth, "each twice");
 }
 
+/// How a line can be written, with things around the bytes that look like bytes.
+type Line = fn(&[u8], bool, &str) -> String;
+
+fn way(asks: bool) -> &'static str {
+    if asks { "TX" } else { "RX" }
+}
+
+static LINES: &[Line] = &[
+    |bytes, asks, _| format!("[0x7f3a2b10c0] {} {}", way(asks), hex(bytes)),
+    |bytes, asks, time| format!("{time} 00:1B:44:11:3A:B7 {} {}", way(asks), hex(bytes)),
+    |bytes, asks, _| {
+        format!("id=3f2504e0-4f89-11d3-9a0c-0305e82c3301 {}: {}", way(asks), joined(bytes, " ", lower))
+    },
+    |bytes, asks, time| format!("{time} add bad face dead beef {}: {}", way(asks), hex(bytes)),
+    |bytes, asks, time| format!("{time} (thread 0x1a2b) {}: {}", way(asks), hex(bytes)),
+    // Lists as several languages print them, with numbers below 0 as well.
+    |bytes, asks, _| format!("{} {bytes:?}", if asks { "write" } else { "read" }),
+    |bytes, asks, _| format!("{} [{}]", way(asks), joined(bytes, " ", |byte| byte.to_string())),
+    |bytes, asks, _| {
+        format!("{} [{}]", way(asks), joined(bytes, ", ", |byte| byte.cast_signed().to_string()))
+    },
+    |bytes, asks, _| format!("{} <Buffer {}>", way(asks), joined(bytes, " ", lower)),
+    |bytes, asks, _| format!("{} {}", way(asks), joined(bytes, " ", |byte| format!("16#{byte:02X}"))),
+    |bytes, asks, _| format!("{} {}", way(asks), joined(bytes, ",", |byte| format!("${byte:02X}"))),
+    |bytes, asks, _| format!("{} {}", way(asks), joined(bytes, "", |byte| format!("%{byte:02X}"))),
+    |bytes, asks, _| format!("{} {}", way(asks), joined(bytes, " ", |byte| format!("{byte:x}"))),
+    |bytes, asks, _| format!("{}_{}", way(asks), joined(bytes, "_", upper)),
+    |bytes, asks, _| format!("{} {}", way(asks), joined(bytes, "/", upper)),
+    // Who speaks, in other words.
+    |bytes, asks, _| format!("{}: {}", if asks { "Master -> Slave" } else { "Slave -> Master" }, hex(bytes)),
+    |bytes, asks, _| {
+        format!("{}: {}", if asks { "server <- client" } else { "client <- server" }, hex(bytes))
+    },
+    |bytes, asks, _| format!("{} {}", if asks { ">" } else { "<" }, hex(bytes)),
+    |bytes, _, time| format!("{time} {}", hex(bytes)),
+    // Counts and remarks before and behind.
+    |bytes, _, _| format!("({}) {}", bytes.len(), hex(bytes)),
+    |bytes, asks, _| format!("{} {} {}", way(asks), bytes.len(), hex(bytes)),
+    |bytes, asks, _| format!("{} [{:02X}] {}", if asks { ">>" } else { "<<" }, bytes.len(), hex(bytes)),
+    |bytes, _, _| format!("{} ; unit {} fc {:02} as expected", hex(bytes), bytes[0], bytes[1]),
+    |bytes, asks, _| {
+        let check = &bytes[bytes.len() - 2..];
+        format!("{} {} CRC={} OK", way(asks), hex(bytes), joined(check, "", upper))
+    },
+    |bytes, asks, time| format!("\"17\",\"{time}\",\"{}\",\"{}\",\"{}\"", way(asks), hex(bytes), bytes.len()),
+    |bytes, asks, time| format!("\x1B[0;36m[{time}] {} {}\x1B[0m", way(asks), hex(bytes)),
+    // In chunks of five.
+    |bytes, asks, time| {
+        let chunks: Vec<String> =
+            bytes.chunks(5).map(|part| format!("{time} {}: {}", way(asks), hex(part))).collect();
+        chunks.join("\n")
+    },
+];
+
+#[test]
+fn what_looks_like_bytes_is_none() {
+    for (index, line) in LINES.iter().enumerate() {
+        for seed in 40..42 {
+            let (mut text, mut truth) = (String::new(), Vec::new());
+            for (n, sent) in exchanges(seed, 60).iter().enumerate() {
+                let asks = sent.direction == Direction::Request;
+                writeln!(text, "{}", line(&sent.rtu(), asks, &clock(n))).unwrap();
+                truth.push((sent.rtu(), sent.direction));
+            }
+            assert_found(text.as_bytes(), &truth, &format!("line {index}, seed {seed}"));
+        }
+    }
+}
+
+/// All of a log in one line.
+#[test]
+fn a_line_can_hold_a_whole_log() {
+    let truth: Vec<(Vec<u8>, Direction)> =
+        exchanges(51, 60).iter().map(|sent| (sent.rtu(), sent.direction)).collect();
+    let words = |asks| if asks { "TX" } else { "RX" };
+    let text: Vec<String> = truth
+        .iter()
+        .map(|(bytes, direction)| format!("{} {}", words(*direction == Direction::Request), hex(bytes)))
+        .collect();
+    assert_found(text.join(" ").as_bytes(), &truth, "one line with words");
+}
+
 #[test]
 fn every_layout_is_tried() {
     let tried = |layout: &Layout| {

@@ -157,6 +157,25 @@ impl Scan {
         at
     }
 
+    /// Whether the first number of a run counts the bytes behind it.
+    pub fn counts(&self, run: &Run) -> bool {
+        let (first, decimal) = (self.hex[run.first], self.decimal[run.first]);
+        // Counts are decimal, whatever the bytes are.
+        let count = if run.hex { first / 16 * 10 + first % 16 } else { decimal };
+        run.len() > 4 && run.tokens() == run.len() && usize::from(count) + 1 == run.len()
+    }
+
+    /// Takes the first number out of runs where it counts the bytes behind it.
+    pub fn drop_counts(&mut self) {
+        for at in 0..self.runs.len() {
+            if self.counts(&self.runs[at]) {
+                let run = &mut self.runs[at];
+                run.first += 1;
+                run.span.from = self.places[run.first].from;
+            }
+        }
+    }
+
     /// The bytes of `run`, decimal only where they must be or are known to be.
     pub fn bytes(&self, run: &Run, numbers: Numbers) -> &[u8] {
         let decimal = run.decimal && (!run.hex || numbers == Numbers::Decimal) && !run.marked;
@@ -392,7 +411,8 @@ impl Scan {
     /// Whether a number below 0 begins at a minus, as some languages write bytes: `4, -40, 0`.
     fn is_negative(&self, line: &[u8], at: usize) -> bool {
         let apart = at.checked_sub(1).is_some_and(|before| matches!(line[before], b' ' | b',' | b'[' | b'{'));
-        let number = digits(line, at + 1).filter(|(value, _)| (1..=128).contains(value) && line[at + 1] != b'0');
+        let number =
+            digits(line, at + 1).filter(|(value, _)| (1..=128).contains(value) && line[at + 1] != b'0');
         let ends = |to: usize| line.get(to).is_none_or(|c| matches!(c, b' ' | b',' | b']' | b'}' | b';'));
         apart && number.is_some_and(|(_, to)| ends(to))
     }

@@ -31,6 +31,8 @@ use words::Weight;
 pub struct Form {
     /// How numbers without a mark are written; `None` where each tells.
     pub numbers: Option<Numbers>,
+    /// The first number counts the bytes behind it, see [`counted`].
+    pub counted: bool,
     /// What a person marked in one line.
     pub marks: Option<Marks>,
 }
@@ -184,6 +186,9 @@ impl Reader {
         let marked = self.form.marks.as_ref().and_then(|marks| marks.bytes_from(line));
         let from = row.map_or(0, |row| row.from).max(marked.unwrap_or(0));
         self.scan.read(line, from, self.form.numbers);
+        if self.form.counted {
+            self.scan.drop_counts();
+        }
         if row.is_some_and(|row| row.low_first) {
             swap_words(&mut self.scan);
         }
@@ -324,6 +329,29 @@ pub fn recognise(text: &[u8]) -> Recognised {
     reader.finish(&mut count);
     let numbers = layout.and_then(|layout| layout.numbers).unwrap_or_else(|| numbers(text));
     Recognised { layout, numbers, with_bytes, telling }
+}
+
+/// Whether each line's first number counts the bytes behind it, with nothing else to tell it from
+/// them: `8 01 03 00 C8 00 03 84 35`.
+pub fn counted(text: &[u8], numbers: Option<Numbers>) -> bool {
+    const ENOUGH: usize = 1 << 14;
+    let text = &text[..text.len().min(ENOUGH)];
+    // The last line may be cut.
+    let end = text.iter().rposition(|c| matches!(c, b'\n' | b'\r')).unwrap_or(text.len());
+    let mut scan = Scan::default();
+    let (mut least, mut most) = (usize::MAX, 0);
+    for line in text[..end].split(|c| matches!(c, b'\n' | b'\r')) {
+        scan.read(line, 0, numbers);
+        let Some(run) = scan.runs.iter().filter(|run| run.len() >= 4).max_by_key(|run| run.len()) else {
+            continue;
+        };
+        if !scan.counts(run) {
+            return false;
+        }
+        (least, most) = (least.min(run.len()), most.max(run.len()));
+    }
+    // Telegrams of one length for one unit could look the same.
+    least < most
 }
 
 /// Hex, unless the numbers of most lines can only be decimal.
