@@ -130,7 +130,7 @@ impl Reader {
         }
         self.after_return &= rest.is_empty();
         self.carry.extend_from_slice(rest);
-        while self.carry.len() > LONGEST_LINE {
+        if self.carry.len() > LONGEST_LINE {
             self.cut(sink);
         }
     }
@@ -165,15 +165,20 @@ impl Reader {
         self.long = false;
     }
 
-    /// Reads what is there of a long line, up to a place where no byte is cut.
+    /// Reads what is there of a long line, in parts that end where no byte is cut.
     fn cut(&mut self, sink: &mut dyn FnMut(Event<'_>)) {
-        let mut carry = std::mem::take(&mut self.carry);
         let blank = |c: &u8| matches!(c, b' ' | b'\t' | b',' | b';' | b':' | b'-' | b'[' | b'<');
-        let at = carry[..LONGEST_LINE].iter().rposition(blank).filter(|at| *at > 0).unwrap_or(LONGEST_LINE);
-        self.read(&carry[..at], sink);
-        self.long = true;
-        self.offset += at as u64;
-        carry.drain(..at);
+        let mut carry = std::mem::take(&mut self.carry);
+        let mut from = 0;
+        while carry.len() - from > LONGEST_LINE {
+            let part = &carry[from..from + LONGEST_LINE];
+            let length = part.iter().rposition(blank).filter(|at| *at > 0).unwrap_or(LONGEST_LINE);
+            self.read(&part[..length], sink);
+            self.long = true;
+            self.offset += length as u64;
+            from += length;
+        }
+        carry.drain(..from);
         self.carry = carry;
     }
 
