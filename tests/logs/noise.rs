@@ -39,12 +39,7 @@ impl Stream {
 type Noise = fn(&mut Stream, &mut Random, [Vec<u8>; 2]);
 
 /// Damages one telegram in ten.
-fn damage(
-    stream: &mut Stream,
-    random: &mut Random,
-    telegrams: [Vec<u8>; 2],
-    how: fn(&mut Vec<u8>, &mut Random),
-) {
+fn damage(stream: &mut Stream, random: &mut Random, telegrams: [Vec<u8>; 2], how: How) {
     for mut telegram in telegrams {
         if random.below(10) == 0 {
             let whole = telegram.clone();
@@ -56,10 +51,13 @@ fn damage(
     }
 }
 
-fn flip(telegram: &mut Vec<u8>, random: &mut Random) {
+/// A way to damage a telegram.
+type How = fn(&mut Vec<u8>, &mut Random);
+
+const FLIP: How = |telegram, random| {
     let at = random.below(telegram.len());
     telegram[at] ^= 1 << random.below(8);
-}
+};
 
 fn drop_byte(telegram: &mut Vec<u8>, random: &mut Random) {
     telegram.remove(random.below(telegram.len()));
@@ -98,7 +96,7 @@ static KINDS: &[(&str, Noise)] = &[
             stream.intact(&telegram);
         }
     }),
-    ("flipped bits", |stream, random, telegrams| damage(stream, random, telegrams, flip)),
+    ("flipped bits", |stream, random, telegrams| damage(stream, random, telegrams, FLIP)),
     ("dropped bytes", |stream, random, telegrams| damage(stream, random, telegrams, drop_byte)),
     ("truncation", |stream, random, telegrams| damage(stream, random, telegrams, truncate)),
     ("beginnings lost", |stream, random, telegrams| {
@@ -138,21 +136,19 @@ static KINDS: &[(&str, Noise)] = &[
         }
     }),
     ("all of these", |stream, random, [request, response]| {
-        let hows = [flip, drop_byte, truncate, swallow];
+        let hows: [How; 4] = [FLIP, drop_byte, truncate, swallow];
         for (telegram, times) in [(&request, 1 + random.below(2)), (&response, random.below(5).min(1))] {
             for _ in 0..times {
-                let pair = [telegram.clone(), Vec::new()];
                 if random.below(20) == 0 {
                     let count = random.below(20);
                     let garbage = random.bytes(count);
                     stream.noise(&garbage);
                 }
-                let [telegram, _] = pair;
                 let mut damaged = telegram.clone();
                 if random.below(15) == 0 {
                     random.of(&hows)(&mut damaged, random);
                 }
-                if damaged == telegram { stream.intact(&telegram) } else { stream.noise(&damaged) }
+                if damaged == *telegram { stream.intact(telegram) } else { stream.noise(&damaged) }
             }
         }
     }),
