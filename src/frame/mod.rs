@@ -9,6 +9,7 @@ pub mod modbus_serial;
 pub mod modbus_tcp;
 mod profibus_bare;
 pub mod profibus_fdl;
+mod rules;
 pub mod split;
 
 use crate::field::{Direction, Message, Spec};

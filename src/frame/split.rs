@@ -9,9 +9,10 @@
 
 use super::modbus_serial::BROADCAST;
 use super::profibus_fdl::{Fdl, SC, SD4};
+use super::rules::{self, Rule, Rules};
 use super::{Protocol, modbus_rtu, modbus_tcp, profibus_fdl};
-use crate::field::{Direction, Span};
-use crate::modbus::{Dialect, EXCEPTION, Length, Pdu};
+use crate::field::Span;
+use crate::modbus::{Dialect, EXCEPTION};
 use crate::walk::crc_residue;
 
 /// What begins at a place.
@@ -36,8 +37,8 @@ pub struct Waiting {
 /// What each function's telegrams are long.
 #[derive(Debug)]
 pub struct Splitter {
-    /// Request and response, by function code; `None` for codes that are not known.
-    rules: Vec<Option<[Length; 2]>>,
+    /// By function code; `None` for codes that are not known.
+    rules: Vec<Option<Rules>>,
 }
 
 /// What is known where a telegram may begin.
@@ -61,16 +62,11 @@ pub fn can_split(protocol: &Protocol) -> bool {
 
 impl Splitter {
     pub fn new(dialect: &'static Dialect) -> Self {
-        let rule = |function: u8| {
-            let [request, response] = [Direction::Request, Direction::Response]
-                .map(|direction| Pdu::kind(function, direction, dialect));
-            (request.function == function && response.function == function && function > 0)
-                .then_some([request.length, response.length])
-        };
-        Self { rules: (0..EXCEPTION).map(rule).collect() }
+        Self { rules: rules::all(dialect) }
     }
 
     /// What of `protocol` begins at `place`.
+    #[inline]
     pub fn begins(&self, protocol: &'static Protocol, place: Place<'_>) -> Begins {
         if std::ptr::eq(protocol, &raw const modbus_rtu::PROTOCOL) {
             self.rtu(place)
@@ -94,7 +90,7 @@ impl Splitter {
         match pdu.first() {
             Some(function) if function & EXCEPTION != 0 => [false, pdu.len() == 2],
             Some(function) => match self.rule(*function) {
-                Some(rules) => rules.map(|rule| rule.fits(pdu)),
+                Some(rules) => [rules.request.fits(pdu), rules.response.fits(pdu)],
                 None => [false, false],
             },
             None => [false, false],
@@ -104,16 +100,7 @@ impl Splitter {
     /// How many bytes the PDU of the response to a request has, if that follows from it.
     #[inline]
     pub fn answer_length(&self, request: &[u8]) -> Option<usize> {
-        let [asked, answer] = self.rule(*request.first()?)?;
-        match (*asked, *answer) {
-            (_, Length::Fixed(length)) => Some(length),
-            // All functions that read so many items have their number here.
-            (Length::Fixed(5) | Length::Counted { at: 9, .. }, Length::Counted { at: 1, unit }) => {
-                let quantity = usize::from(u16::from_be_bytes([*request.get(3)?, *request.get(4)?]));
-                Some(2 + if unit == 1 { quantity.div_ceil(8) } else { quantity * unit })
-            }
-            _ => None,
-        }
+        self.rule(*request.first()?)?.answer_length(request)
     }
 
     /// How many bytes the RTU frame would have that begins with `bytes`: as request, as response.
@@ -122,13 +109,12 @@ impl Splitter {
         if function & EXCEPTION != 0 {
             return [None, Some(2 + AROUND)];
         }
-        let pdu = &bytes[1..];
-        self.rule(*function)
-            .map_or([None, None], |rules| rules.map(|rule| rule.of(pdu).map(|length| length + AROUND)))
+        let whole = |rule: &Rule| rule.length(&bytes[1..]).map(|length| length + AROUND);
+        self.rule(*function).map_or([None, None], |rules| [whole(&rules.request), whole(&rules.response)])
     }
 
     #[inline]
-    fn rule(&self, function: u8) -> Option<&[Length; 2]> {
+    fn rule(&self, function: u8) -> Option<&Rules> {
         self.rules.get(usize::from(function))?.as_ref()
     }
 
@@ -151,31 +137,30 @@ impl Splitter {
                 _ => Begins::Nothing,
             };
         }
-        let Some([request, response]) = self.rule(function) else { return Begins::Nothing };
+        let Some(rules) = self.rule(function) else { return Begins::Nothing };
+        let Rules { request, response, .. } = rules;
         let pdu = &bytes[1..];
-        let whole = |rule: &Length| rule.of(pdu).map(|length| length + AROUND);
+        let whole = |rule: &Rule| rule.length(pdu).map(|length| length + AROUND);
         let (asks, answers) = (whole(request), whole(response).filter(|_| unit != BROADCAST));
-        if let (Some(awaited), Some(length)) = (awaited, answers) {
+        let asked = || right(bytes, asks, Some(request), more);
+        let answered = || right(bytes, answers, Some(response), more);
+        let fits = |awaited: Waiting| {
+            answers.is_some_and(|it| awaited.length.is_none_or(|length| usize::from(length) == it))
+        };
+        if awaited.is_some_and(fits) {
             // No telegram is longer than the one that is awaited, and none has another length.
-            if awaited.length.is_none_or(|it| usize::from(it) == length) {
-                match right(bytes, Some(length), Some(response), more) {
-                    Begins::Nothing => {}
-                    begins => return begins,
-                }
-                return if asks == answers {
-                    Begins::Nothing
-                } else {
-                    right(bytes, asks, Some(request), more)
-                };
-            }
+            return match answered() {
+                Begins::Nothing => asked(),
+                begins => begins,
+            };
         }
-        match right(bytes, asks, Some(request), more) {
-            // Where too little is known of the request's length, it may be a response all the same.
-            Begins::More => match right(bytes, answers, Some(response), more) {
-                Begins::Telegram(length) => Begins::Telegram(length),
-                _ => Begins::More,
+        match asked() {
+            Begins::Nothing => answered(),
+            // Nobody asks for what no response can hold, if it can be a response itself.
+            Begins::Telegram(_) if asks != answers && !rules.can_be_answered(pdu) => match answered() {
+                Begins::Nothing => asked(),
+                begins => begins,
             },
-            Begins::Nothing if asks != answers => right(bytes, answers, Some(response), more),
             begins => begins,
         }
     }
@@ -226,7 +211,7 @@ const AROUND: usize = modbus_rtu::RTU.around();
 /// Whether a frame of `length` begins `bytes` whose PDU is of the length `rule` and whose check is
 /// right.
 #[inline]
-fn right(bytes: &[u8], length: Option<usize>, rule: Option<&Length>, more: Begins) -> Begins {
+fn right(bytes: &[u8], length: Option<usize>, rule: Option<&Rule>, more: Begins) -> Begins {
     // Nothing tells how long it is: it cannot be told from what follows, unless bytes are missing.
     let Some(length) = length else { return if bytes.len() < 12 { more } else { Begins::Nothing } };
     if length > modbus_rtu::RTU.longest() || length < modbus_rtu::RTU.shortest() {
@@ -267,19 +252,40 @@ mod tests {
     fn the_request_that_waits_decides_between_a_telegram_and_its_beginning() {
         // A request from 02xxh on that ends in 00: as a response of two bytes, it is right one byte
         // earlier.
-        let found = (0..=u16::MAX).find_map(|n| {
-            let [high, low] = n.to_be_bytes();
-            let body = [1, 3, 2, high, low];
-            let check = (crate::walk::CRC_16_MODBUS.wire(&body) as u16).to_be_bytes();
-            let long = [1, 3, 2, high, low, check[0], check[1], 0];
-            (crc_residue(&long) == 0).then_some(long)
+        let found = (0x0100..0xF700_u16).find_map(|n| {
+            let [unit, high] = n.to_be_bytes();
+            let short = with_check(&[unit, 3, 2, high, 0]);
+            // As a request, it is for so many registers.
+            (1..=125).contains(&short[5]).then(|| [short, vec![0]].concat())
         });
         let both = found.expect("a CRC stays right when a zero follows");
         assert_eq!(begins(&both, None), Begins::Telegram(8), "a request is expected");
-        let waiting = Waiting { unit: 1, function: 3, length: Some(7) };
+        let waiting = Waiting { unit: both[0], function: 3, length: Some(7) };
         assert_eq!(begins(&both, Some(waiting)), Begins::Telegram(7));
         let longer = Waiting { length: Some(9), ..waiting };
         assert_eq!(begins(&both, Some(longer)), Begins::Telegram(8), "the response is of another length");
+    }
+
+    fn with_check(body: &[u8]) -> Vec<u8> {
+        [body, &(crate::walk::CRC_16_MODBUS.wire(body) as u16).to_be_bytes()].concat()
+    }
+
+    #[test]
+    fn a_response_as_long_as_a_request_would_be_is_found() {
+        // As a request it would write 0 registers, which none does.
+        let response = with_check(&[5, 23, 8, 1, 2, 3, 4, 5, 6, 7, 0]);
+        assert_eq!(begins(&response, None), Begins::Telegram(13));
+    }
+
+    #[test]
+    fn a_request_for_more_than_a_response_can_hold_is_rather_a_response() {
+        // A CRC stays right when 00 follows: a response with four bytes ends in 00, and as a request it
+        // would end before that.
+        let both = |quantity: u8| [with_check(&[5, 3, 4, 0, quantity, 10]), vec![0]].concat();
+        assert_eq!(begins(&both(200), None), Begins::Telegram(9));
+        assert_eq!(begins(&both(0), None), Begins::Telegram(8), "a request is expected");
+        let waiting = Waiting { unit: 5, function: 3, length: Some(9) };
+        assert_eq!(begins(&both(0), Some(waiting)), Begins::Telegram(9));
     }
 
     #[test]

@@ -34,19 +34,11 @@ pub enum Length {
 
 impl Length {
     /// The length that the PDU beginning with `bytes` must have, as far as its bytes tell.
-    #[inline(always)]
+    #[inline]
     pub fn of(self, bytes: &[u8]) -> Option<usize> {
-        // Nearly all are of these two.
         match self {
             Self::Fixed(length) => Some(length),
-            Self::Counted { at, .. } => bytes.get(at).map(|count| at + 1 + usize::from(*count)),
-            other => other.of_rare(bytes),
-        }
-    }
-
-    fn of_rare(self, bytes: &[u8]) -> Option<usize> {
-        match self {
-            Self::Fixed(_) | Self::Counted { .. } => self.of(bytes),
+            Self::Counted { at, .. } => number(bytes, at, 1).map(|count| at + 1 + count as usize),
             Self::CountedByTwo { at, .. } => number(bytes, at, 2).map(|count| at + 2 + count as usize),
             Self::Listed { at } => {
                 let count = number(bytes, at, 1)?;
@@ -60,25 +52,14 @@ impl Length {
     }
 
     /// Whether `bytes` can be a whole PDU of this length.
-    #[inline(always)]
+    #[inline]
     pub fn fits(self, bytes: &[u8]) -> bool {
-        match self {
-            Self::Fixed(length) => bytes.len() == length,
-            // Of which there are some, and whole ones. Both numbers fit into a byte.
-            Self::Counted { at, unit } => bytes.get(at).is_some_and(|count| {
-                bytes.len() == at + 1 + usize::from(*count) && *count > 0 && count.is_multiple_of(unit as u8)
-            }),
-            other => other.fits_rare(bytes),
-        }
-    }
-
-    fn fits_rare(self, bytes: &[u8]) -> bool {
         let whole = |from: usize, unit: usize| {
             bytes.len().checked_sub(from).is_some_and(|units| units > 0 && units.is_multiple_of(unit))
         };
         match self {
-            Self::Fixed(_) | Self::Counted { .. } => self.fits(bytes),
-            Self::Listed { .. } => self.of(bytes) == Some(bytes.len()),
+            Self::Fixed(_) | Self::Listed { .. } => self.of(bytes) == Some(bytes.len()),
+            Self::Counted { at, unit } => self.of(bytes) == Some(bytes.len()) && whole(at + 1, unit),
             Self::CountedByTwo { at, unit } => self.of(bytes) == Some(bytes.len()) && whole(at + 2, unit),
             Self::Units { after, unit } => whole(after, unit),
             Self::Chosen { at, width, by } => {
@@ -90,6 +71,7 @@ impl Length {
 }
 
 /// The number of `width` bytes at `at`, if they are there.
+#[inline]
 fn number(bytes: &[u8], at: usize, width: usize) -> Option<u64> {
     let there = bytes.get(at..at + width)?;
     Some(there.iter().fold(0, |number, byte| number << 8 | u64::from(*byte)))

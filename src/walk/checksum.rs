@@ -34,13 +34,46 @@ fn crc_16_modbus(bytes: &[u8]) -> u64 {
 /// One table of 256 entries: quick enough, and half a kilobyte in the page.
 static CRC: Crc<u16, Table<1>> = Crc::<u16, Table<1>>::new(&MODBUS);
 
-/// The CRC of a whole RTU frame, which is 0 where its check is right. With its sixteen tables (8
-/// KiB) it is quick enough for logs.
+/// The CRC of a whole RTU frame, which is 0 where its check is right. Its eight tables (4 KiB) make
+/// it quick enough for logs: the bytes of a block do not wait for each other.
 #[inline]
 pub fn crc_residue(frame: &[u8]) -> u16 {
-    static QUICK: Crc<u16, Table<16>> = Crc::<u16, Table<16>>::new(&MODBUS);
-    QUICK.checksum(frame)
+    let (blocks, rest) = frame.as_chunks::<BLOCK>();
+    let crc = blocks.iter().fold(u16::MAX, |crc, block| {
+        let [low, high] = crc.to_le_bytes();
+        let [first, second, others @ ..] = block;
+        let crc = BLOCK_TABLES[0][usize::from(first ^ low)] ^ BLOCK_TABLES[1][usize::from(second ^ high)];
+        let others = others.iter().zip(&BLOCK_TABLES[2..]);
+        others.fold(crc, |crc, (byte, table)| crc ^ table[usize::from(*byte)])
+    });
+    let last = &BLOCK_TABLES[BLOCK - 1];
+    rest.iter().fold(crc, |crc, byte| crc >> 8 ^ last[usize::from(crc as u8 ^ byte)])
 }
+
+/// So many bytes are taken at once.
+const BLOCK: usize = 8;
+
+/// What a byte adds to the CRC behind its block, for each place in the block.
+static BLOCK_TABLES: [[u16; 256]; BLOCK] = {
+    let mut tables = [[0; 256]; BLOCK];
+    let mut place = BLOCK;
+    while place > 0 {
+        place -= 1;
+        let mut byte = 0;
+        while byte < 256 {
+            // One byte further from the end: as much as before, and a zero behind it.
+            let mut crc = if place == BLOCK - 1 { byte as u16 } else { tables[place + 1][byte] };
+            let mut bit = 0;
+            while bit < 8 {
+                crc = if crc & 1 == 1 { crc >> 1 ^ 0xA001 } else { crc >> 1 };
+                bit += 1;
+            }
+            tables[place][byte] = crc;
+            byte += 1;
+        }
+    }
+    tables
+};
 
 /// The check of Modbus ASCII: what is missing from the sum of the bytes to 0, in one byte.
 ///
@@ -66,6 +99,15 @@ mod tests {
     fn the_check_value_of_the_catalogue() {
         assert_eq!((CRC_16_MODBUS.compute)(b"123456789"), 0x4B37);
         assert_eq!(CRC_16_MODBUS.wire(b"123456789"), 0x374B);
+    }
+
+    #[test]
+    fn the_quick_crc_is_the_same() {
+        let bytes: Vec<u8> = (0..70_u32).map(|n| (n * n * 37 + 11) as u8).collect();
+        for length in 0..bytes.len() {
+            let part = &bytes[..length];
+            assert_eq!(u64::from(crc_residue(part)), (CRC_16_MODBUS.compute)(part), "{length} bytes");
+        }
     }
 
     #[test]

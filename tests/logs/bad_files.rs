@@ -27,7 +27,26 @@ fn each_bad_file_gets_its_word() {
     assert!(word("nothing but prose\n".repeat(20).as_bytes()).starts_with("0 telegrams"));
     let noise: Vec<u8> = (0..5000_u32).map(|n| (n.wrapping_mul(2_654_435_761) >> 13) as u8).collect();
     assert!(word(&noise).contains("telegrams of"), "{}", word(&noise));
-    // 10 MB in one line.
+    // A text that was cut in the middle of a character, and one of zeros.
+    let wide: Vec<u8> = "TX 05 03 00 C8 00 03 85 8F\n".encode_utf16().flat_map(u16::to_be_bytes).collect();
+    let wide = [&[0xFE, 0xFF], wide.as_slice(), &[0]].concat();
+    assert!(word(&wide).starts_with("1 telegram of Modbus RTU in 1 line"), "{}", word(&wide));
+    assert!(word(&[0; 10_000]).starts_with("0 telegrams"), "{}", word(&[0; 10_000]));
+    assert!(word(b"\n\n\n").starts_with("0 telegrams"), "{}", word(b"\n\n\n"));
+    for (beginning, name) in [
+        (&b"\x1F\x8B\x08\0"[..], "gzip"),
+        (b"\x89PNG\r\n", "picture"),
+        (b"MZ\x90\0", "program"),
+        (b"SQLite format 3\0", "database"),
+        (b"\xD0\xCF\x11\xE0", "Office"),
+    ] {
+        assert!(word(beginning).contains(name), "{}", word(beginning));
+    }
+    // 10 MB in one line, without a blank as well.
+    let line = "05030 0C8".repeat(10);
+    assert!(word(line.as_bytes()).contains("telegram"), "{}", word(line.as_bytes()));
+    let line = "A".repeat(10_000_000);
+    assert!(word(line.as_bytes()).contains("telegram"), "{}", word(line.as_bytes()));
     let line = "05 03 00 C8 00 03 85 B1 ".repeat(10_000_000 / 24);
     assert!(
         word(line.as_bytes()).starts_with("416,666 telegrams of Modbus RTU in 1 line"),

@@ -228,3 +228,53 @@ fn writes_in_a_log_teach_later_reads() {
         format!("{:?}", alone.detail(1).unwrap().device)
     );
 }
+
+/// The story says each thing that is special, with its number.
+#[test]
+fn the_story_tells_what_is_special() {
+    let twice: Vec<(u64, &str, Vec<u8>)> = (0..10)
+        .flat_map(|n| {
+            let time = n * 100;
+            [
+                (time, "Tx", ask(5)),
+                (time, "Tx", ask(5)),
+                (time + 9, "Rx", answer(5)),
+                (time + 9, "Rx", answer(5)),
+            ]
+        })
+        .collect();
+    let copied = read(&log(&twice));
+    assert_eq!(copied.statistics().copies, 20);
+    assert!(roles(&copied).chunks(2).all(|pair| pair == [Role::Plain, Role::Copy]));
+    let story: Vec<String> = copied.story().iter().map(ToString::to_string).collect();
+    assert_eq!(story[1], "Unit 5 answered all 10 requests");
+    assert_eq!(story[2], "20 telegrams the log has twice; the copies are not counted");
+
+    let mut broken = answer(9);
+    broken[3] ^= 1;
+    let some = read(&log(&[
+        (0, "Tx", ask(9)),
+        (10, "Rx", rtu(&[9, 0x83, 2])),
+        (100, "Tx", ask(9)),
+        (110, "Rx", broken),
+        (200, "Tx", rtu(&[0, 6, 0, 1, 0, 2])),
+        (300, "Rx", answer(8)),
+    ]));
+    let all = some.statistics();
+    assert_eq!((all.exceptions, all.check_failed, all.broadcasts, all.unasked), (1, 1, 1, 1));
+    let story: Vec<String> = some.story().iter().map(ToString::to_string).collect();
+    assert!(story[1].contains("1 exception; 1 failed check"), "{story:#?}");
+    assert!(story.contains(&"1 response without a request".to_owned()), "{story:#?}");
+    assert!(story.contains(&"1 request to all, which nobody answers".to_owned()), "{story:#?}");
+}
+
+/// A stream has no times and no words: the order alone tells who answers whom.
+#[test]
+fn a_bare_stream_is_a_conversation_too() {
+    let stream = [ask(5), answer(5), ask(6), ask(7), answer(7), ask(5), answer(5)].concat();
+    let reading = Reading { input: buslens::tool::log::Input::Binary, ..Reading::default() };
+    let log = Log::read(&stream, &reading, Options::default()).unwrap();
+    let partners: Vec<_> = log.entries().iter().map(Entry::partner).collect();
+    assert_eq!(partners, [Some(1), Some(0), None, Some(4), Some(3), Some(6), Some(5)]);
+    assert!(log.entries().iter().all(|entry| log.latency(entry).is_none()));
+}

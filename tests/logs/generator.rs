@@ -55,17 +55,25 @@ impl Random {
     }
 }
 
+/// The functions of [`exchange`], the usual ones more often.
+pub const FUNCTIONS: &[u8] = &[1, 2, 3, 3, 3, 4, 5, 6, 15, 16, 23, 100, 101];
+
 /// A request and its response: reads and writes of registers and coils, KEB's long ones, refusals.
 pub fn exchange(random: &mut Random) -> [Sent; 2] {
+    exchange_of(random, FUNCTIONS, 5)
+}
+
+/// The same with one of these functions and at most so many registers.
+pub fn exchange_of(random: &mut Random, functions: &[u8], most: usize) -> [Sent; 2] {
     let unit = random.of(&[1, 2, 5, 17, 247]);
-    let function = random.of(&[1, 2, 3, 3, 3, 4, 5, 6, 15, 16, 23, 100, 101]);
+    let function = random.of(functions);
     let start = random.of(&[0_u16, 200, 215, 1240, 3216, 8242, 24320, 773]).to_be_bytes();
-    let count = 1 + random.below(5);
+    let count = 1 + random.below(most);
     let quantity = (count as u16).to_be_bytes();
     let width = if function >= 100 { 4 } else { 2 };
-    let data = random.bytes(count * width);
-    let one = random.bytes(2);
-    let coils = random.bytes(1);
+    let data = values(random, count * width);
+    let one = values(random, 2);
+    let coils = random.bytes(count.div_ceil(8));
     let head = [unit, function];
     let counted = |data: &[u8]| [&head[..], &[data.len() as u8], data].concat();
     let asks = [&head[..], &start, &quantity].concat();
@@ -80,7 +88,7 @@ pub fn exchange(random: &mut Random) -> [Sent; 2] {
             let both = [&head[..], &start, &one].concat();
             (both.clone(), both)
         }
-        15 => ([&head[..], &start, &quantity, &[1], &coils].concat(), asks.clone()),
+        15 => ([&head[..], &start, &quantity, &[coils.len() as u8], &coils].concat(), asks.clone()),
         23 => {
             let writes =
                 [&head[..], &start, &quantity, &start, &quantity, &[data.len() as u8], &data].concat();
@@ -94,6 +102,17 @@ pub fn exchange(random: &mut Random) -> [Sent; 2] {
         Sent { direction: Direction::Request, body: request },
         Sent { direction: Direction::Response, body: response },
     ]
+}
+
+/// Bytes of registers: as devices have them, most are small numbers, and many 0.
+fn values(random: &mut Random, count: usize) -> Vec<u8> {
+    let most = random.of(&[0, 1, 4, 16]);
+    random
+        .bytes(count)
+        .iter()
+        .enumerate()
+        .map(|(at, byte)| if at % 4 < most || most > 4 { *byte } else { 0 })
+        .collect()
 }
 
 /// Some exchanges, one after the other.

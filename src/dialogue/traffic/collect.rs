@@ -456,7 +456,8 @@ impl Traffic {
     fn broken(&mut self, index: usize, piece: &[u8], from: usize) {
         const LONGEST: usize = 300;
         if piece.len() > LONGEST {
-            return self.discard(index, piece, from);
+            let kept = keep(&mut self.data, piece);
+            return self.discard(index, piece, from, kept);
         }
         let main = self.protocol;
         self.add(index, piece, from, main, (main.verdict)(piece));
@@ -484,6 +485,9 @@ impl Traffic {
         let main = self.main(index);
         let port = usize::from(self.lanes[index].row(from).port);
         let mut in_step = self.lanes[index].in_step;
+        // All that is done with becomes entries, one behind the other: with the first of them, all of
+        // it is kept.
+        let mut kept = None;
         // What lies before `at` and is no telegram begins at `garbage`.
         let (mut garbage, mut at) = (0, std::mem::take(&mut self.lanes[index].barren));
         while at < bytes.len() {
@@ -491,8 +495,9 @@ impl Traffic {
             let place = Place { bytes: &bytes[at..], last, in_step, waiting };
             match self.splitter.begins(main, place) {
                 Begins::Telegram(length) => {
+                    let kept = *kept.get_or_insert_with(|| keep(&mut self.data, bytes));
                     if garbage < at {
-                        self.unframed(index, &bytes[garbage..at], from + garbage);
+                        self.unframed(index, &bytes[garbage..at], from + garbage, kept + garbage);
                     }
                     let telegram = &bytes[at..at + length];
                     let verdict = if std::ptr::eq(main, &raw const modbus_rtu::PROTOCOL) {
@@ -500,7 +505,7 @@ impl Traffic {
                     } else {
                         (main.verdict)(telegram)
                     };
-                    self.add(index, telegram, from + at, main, verdict);
+                    self.push(index, telegram, from + at, kept + at, main, verdict, Role::Plain);
                     at += length;
                     (garbage, in_step) = (at, true);
                 }
@@ -508,15 +513,20 @@ impl Traffic {
                 Begins::Nothing => {
                     (at, in_step) = (at + 1, false);
                     if at - garbage >= HOPELESS {
-                        self.discard(index, &bytes[garbage..at], from + garbage);
+                        let kept = *kept.get_or_insert_with(|| keep(&mut self.data, bytes));
+                        self.discard(index, &bytes[garbage..at], from + garbage, kept + garbage);
                         garbage = at;
                     }
                 }
             }
         }
         if last && garbage < at {
-            self.unframed(index, &bytes[garbage..at], from + garbage);
+            let kept = *kept.get_or_insert_with(|| keep(&mut self.data, bytes));
+            self.unframed(index, &bytes[garbage..at], from + garbage, kept + garbage);
             garbage = at;
+        }
+        if let Some(kept) = kept {
+            self.data.truncate(kept + garbage);
         }
         let lane = &mut self.lanes[index];
         (lane.in_step, lane.barren) = (in_step, at - garbage);
@@ -524,7 +534,7 @@ impl Traffic {
     }
 
     /// Bytes of a stream without a right telegram: a damaged one, if they begin or end like one.
-    fn unframed(&mut self, index: usize, bytes: &[u8], from: usize) {
+    fn unframed(&mut self, index: usize, bytes: &[u8], from: usize, kept: usize) {
         let rtu = std::ptr::eq(self.main(index), &raw const modbus_rtu::PROTOCOL);
         let long = (modbus_rtu::RTU.shortest()..=modbus_rtu::RTU.longest()).contains(&bytes.len());
         let port = usize::from(self.lanes[index].row(from).port);
@@ -536,15 +546,15 @@ impl Traffic {
             awaited || seen || self.splitter.rtu_lengths(bytes).contains(&Some(bytes.len()))
         };
         match like {
-            true => self.add(index, bytes, from, self.main(index), Verdict::Wrong),
-            false => self.discard(index, bytes, from),
+            true => self.push(index, bytes, from, kept, self.main(index), Verdict::Wrong, Role::Plain),
+            false => self.discard(index, bytes, from, kept),
         }
     }
 
-    fn discard(&mut self, index: usize, bytes: &[u8], from: usize) {
+    fn discard(&mut self, index: usize, bytes: &[u8], from: usize, kept: usize) {
         for (part, piece) in bytes.chunks(usize::from(u16::MAX)).enumerate() {
-            let from = from + part * usize::from(u16::MAX);
-            self.push(index, piece, from, self.protocol, Verdict::NoCheck, Role::Discarded);
+            let at = part * usize::from(u16::MAX);
+            self.push(index, piece, from + at, kept + at, self.protocol, Verdict::NoCheck, Role::Discarded);
         }
     }
 
@@ -556,15 +566,19 @@ impl Traffic {
         protocol: &'static Protocol,
         verdict: Verdict,
     ) {
-        self.push(index, bytes, from, protocol, verdict, Role::Plain);
+        let kept = keep(&mut self.data, bytes);
+        self.push(index, bytes, from, kept, protocol, verdict, Role::Plain);
     }
 
+    /// Adds the entry of `bytes`, which lie at `from` in their lane and at `kept` in the data.
     #[inline]
+    #[expect(clippy::too_many_arguments, reason = "all of them are the entry's")]
     fn push(
         &mut self,
         index: usize,
         bytes: &[u8],
         from: usize,
+        kept: usize,
         protocol: &'static Protocol,
         verdict: Verdict,
         role: Role,
@@ -574,11 +588,9 @@ impl Traffic {
         }
         self.room -= 1;
         let row = self.lanes[index].row(from);
-        let at = self.data.len();
-        self.data.extend_from_slice(bytes);
         let mut entry = Entry {
             time: row.time,
-            at: at as u32,
+            at: kept as u32,
             offset: row.offset,
             line: row.line,
             skip: (from as isize - row.from).clamp(0, isize::from(i16::MAX)) as u16,
@@ -688,6 +700,13 @@ impl Lane {
         let gone = self.rows.partition_point(|row| row.from <= 0).saturating_sub(1);
         self.rows.drain(..gone);
     }
+}
+
+/// Keeps bytes; returns where.
+fn keep(data: &mut Vec<u8>, bytes: &[u8]) -> usize {
+    let kept = data.len();
+    data.extend_from_slice(bytes);
+    kept
 }
 
 fn number(protocol: &'static Protocol) -> u8 {

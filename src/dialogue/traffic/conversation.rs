@@ -36,38 +36,36 @@ fn bytes<'a>(entry: &Entry, data: &'a [u8]) -> &'a [u8] {
     Span::new(from, from + usize::from(entry.length)).of(data)
 }
 
+/// Whether two telegrams are the same. Their lengths and checks tell most apart, in one step.
+#[inline]
+fn alike(a: &Entry, b: &Entry, data: &[u8]) -> bool {
+    let (one, other) = (bytes(a, data), bytes(b, data));
+    let [last, other_last] = [one, other].map(|bytes| bytes.last().copied().unwrap_or_default());
+    (one.len() ^ other.len()) | usize::from(last ^ other_last) == 0 && one == other
+}
+
 impl Habits {
     fn of(entries: &[Entry], data: &[u8]) -> Self {
-        let (mut logger, mut requests, mut responses) = (0_i64, [0_usize; 2], [0_usize; 2]);
+        let mut logger = 0_i64;
+        // How many telegrams are only requests, either, only responses: at first, and at once again.
+        let mut counts = [[0_usize; 2]; 3];
         let mut previous: Option<&Entry> = None;
         // A third copy is none of the second.
         let mut doubled = false;
         for entry in entries.iter().filter(|entry| entry.role != Role::Discarded) {
-            let side = match entry.sides {
-                [true, false] => 1,
-                [false, true] => -1,
-                _ => 0,
-            };
+            let [asks, answers] = entry.sides.map(i64::from);
+            let side = asks - answers;
             match entry.hint {
                 Hint::Logger => logger += side,
                 Hint::Other => logger -= side,
                 _ => {}
             }
-            let same = previous.is_some_and(|it| {
-                it.port == entry.port && it.length == entry.length && bytes(it, data) == bytes(entry, data)
-            });
+            let same = previous.is_some_and(|it| alike(it, entry, data) && it.port == entry.port);
             doubled = same && !doubled;
-            let counts = match side {
-                1 => Some(&mut requests),
-                -1 => Some(&mut responses),
-                _ => None,
-            };
-            if let Some([all, again]) = counts {
-                *all += usize::from(!doubled);
-                *again += usize::from(doubled);
-            }
+            counts[(1 - side) as usize][usize::from(doubled)] += 1;
             previous = Some(entry);
         }
+        let [requests, _, responses] = counts;
         let most = |[all, again]: [usize; 2]| again > 0 && again * 10 >= all * 6;
         // Nobody answers twice: where the responses are there twice, it is the log.
         let twice = most(responses) && responses[0] > 1;
@@ -94,10 +92,7 @@ impl Port {
         let entry = entries[index];
         let own = bytes(&entry, data);
         let protocol = entry.protocol();
-        let same = self.previous.filter(|before| {
-            let before = &entries[*before];
-            before.length == entry.length && bytes(before, data) == own
-        });
+        let same = self.previous.filter(|before| alike(&entries[*before], &entry, data));
         if habits.twice
             && same.is_some_and(|before| {
                 entries[before].role != Role::Copy && entries[before].hint == entry.hint
@@ -123,7 +118,7 @@ impl Port {
             Hint::Other if !habits.logger_asks => Some(Direction::Request),
             Hint::Logger | Hint::Other => Some(Direction::Response),
         };
-        let alike = last.is_some_and(|(request, _)| bytes(&entries[request], data) == own);
+        let again = self.echoed && last.is_some_and(|(request, _)| alike(&entries[request], &entry, data));
         let echoes = habits.echo && repeats && !self.echoed && (entry.sides[0] || entry.sides == [false; 2]);
         let direction = match (entry.sides, hinted) {
             _ if echoes => Direction::Request,
@@ -148,7 +143,7 @@ impl Port {
             (Direction::Request, None) => entries[index].role = Role::Broadcast,
             (Direction::Request, Some(exchange)) => {
                 // Polls are alike, too: only who asks again at once tries again.
-                if repeats || (self.echoed && alike) {
+                if repeats || again {
                     entries[index].role = Role::Retry;
                 }
                 self.echoed = false;

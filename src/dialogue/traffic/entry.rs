@@ -117,14 +117,16 @@ impl Entry {
         !matches!(self.role, Role::Discarded | Role::Copy)
     }
 
+    // Millions are counted: what follows is worked out without branches.
+
     /// Whether it is a request that somebody should answer.
     pub fn asks(&self) -> bool {
-        self.direction == Direction::Request && matches!(self.role, Role::Plain | Role::Retry)
+        (self.direction == Direction::Request) & matches!(self.role, Role::Plain | Role::Retry)
     }
 
     /// Whether it is a request that nobody answered.
     pub fn unanswered(&self) -> bool {
-        self.asks() && self.partner == NOBODY
+        self.asks() & (self.partner == NOBODY)
     }
 
     /// The function code without the bit of an exception.
@@ -134,6 +136,6 @@ impl Entry {
 
     /// Whether the server refused.
     pub fn refuses(&self) -> bool {
-        self.direction == Direction::Response && self.function & crate::modbus::EXCEPTION != 0
+        (self.direction == Direction::Response) & (self.function & crate::modbus::EXCEPTION != 0)
     }
 }

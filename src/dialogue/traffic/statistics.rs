@@ -68,36 +68,11 @@ struct Gathered {
     silent: Vec<i64>,
 }
 
-/// Port, unit and function.
-type Key = (u16, Option<u8>, u8);
-
-/// What is gathered, by key. Request and response have the same one, so that the last one is looked
-/// at first.
-#[derive(Default)]
-struct Dialogs {
-    list: Vec<(Key, Gathered)>,
-    places: HashMap<Key, usize>,
-    last: usize,
-}
-
-impl Dialogs {
-    fn of(&mut self, key: Key) -> &mut Gathered {
-        if self.list.get(self.last).is_none_or(|(known, _)| *known != key) {
-            let fresh = self.list.len();
-            self.last = *self.places.entry(key).or_insert(fresh);
-            if self.last == fresh {
-                self.list.push((key, Gathered::default()));
-            }
-        }
-        &mut self.list[self.last].1
-    }
-}
-
 /// Counts.
 pub fn statistics(traffic: &Traffic) -> Statistics {
     let entries = traffic.entries();
     let mut all = Statistics::default();
-    let mut dialogs = Dialogs::default();
+    let mut dialogs = Dialogs { all: Vec::new(), places: HashMap::new(), recent: [0; 256] };
     for entry in entries {
         if entry.role == Role::Discarded {
             all.bytes_discarded += usize::from(entry.length);
@@ -127,18 +102,41 @@ pub fn statistics(traffic: &Traffic) -> Statistics {
             Role::Plain | Role::Copy | Role::Discarded => {}
         }
         if entry.role != Role::Echo {
-            let key = (entry.port, entry.unit, entry.plain_function());
-            count(dialogs.of(key), entry, entries);
+            count(dialogs.of(entry), entry, entries);
         }
     }
     let whole = all.times.map_or(0, |(first, last)| last - first);
-    let mut list: Vec<(Key, Gathered)> = dialogs.list;
-    list.sort_by_key(|(key, _)| *key);
-    all.dialogs = list
-        .into_iter()
-        .map(|((port, unit, function), gathered)| Dialog { port, unit, function, ..gathered.close(whole) })
-        .collect();
+    all.dialogs = dialogs.all.into_iter().map(|gathered| gathered.close(whole)).collect();
+    all.dialogs.sort_unstable_by_key(|dialog| (dialog.port, dialog.unit, dialog.function));
     all
+}
+
+/// What is gathered so far, and where whose numbers are.
+struct Dialogs {
+    all: Vec<Gathered>,
+    places: HashMap<(u16, Option<u8>, u8), usize>,
+    /// The last place for each [`shelf`](Self::of) of keys, so that hardly any is looked up.
+    recent: [usize; 256],
+}
+
+impl Dialogs {
+    fn of(&mut self, entry: &Entry) -> &mut Gathered {
+        let (port, unit, function) = (entry.port, entry.unit, entry.plain_function());
+        let shelf = usize::from(unit.unwrap_or_default() ^ function.rotate_left(4) ^ port as u8);
+        let recent = self.recent[shelf];
+        let same =
+            |it: &Gathered| (it.dialog.port, it.dialog.unit, it.dialog.function) == (port, unit, function);
+        if self.all.get(recent).is_none_or(|it| !same(it)) {
+            let fresh = self.all.len();
+            let place = *self.places.entry((port, unit, function)).or_insert(fresh);
+            if place == fresh {
+                let dialog = Dialog { port, unit, function, ..Dialog::default() };
+                self.all.push(Gathered { dialog, ..Gathered::default() });
+            }
+            self.recent[shelf] = place;
+        }
+        &mut self.all[self.recent[shelf]]
+    }
 }
 
 fn count(gathered: &mut Gathered, entry: &Entry, entries: &[Entry]) {

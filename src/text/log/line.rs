@@ -2,7 +2,7 @@
 
 use super::time;
 use super::words::{self, Sender, Weight};
-use crate::field::Span;
+use crate::field::{Direction, Span};
 
 /// How bytes without a mark of their own are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,9 +108,10 @@ impl Scan {
                 b'<' | b'>' | b'-' | b'=' | 0xE2 => match words::arrow(line, at) {
                     Some((sender, to)) => {
                         self.close();
-                        self.say(sender, Weight::Strong);
+                        self.say(self.party(sender).unwrap_or(sender), Weight::Strong);
                         to
                     }
+                    None if c == b'-' && self.is_negative(line, at) => self.negative(line, at),
                     None if c == 0xE2 => self.word(line, at, numbers),
                     None => at + 1,
                 },
@@ -161,6 +162,25 @@ impl Scan {
         at
     }
 
+    /// Whether the first number of a run counts the bytes behind it.
+    pub fn counts(&self, run: &Run) -> bool {
+        // Counts are decimal, whatever the bytes are.
+        let first = self.hex[run.first];
+        let count = if run.hex { first / 16 * 10 + first % 16 } else { self.decimal[run.first] };
+        run.len() > 4 && run.tokens() == run.len() && usize::from(count) + 1 == run.len()
+    }
+
+    /// Takes the first number out of runs where it counts the bytes behind it.
+    pub fn drop_counts(&mut self) {
+        for at in 0..self.runs.len() {
+            if self.counts(&self.runs[at]) {
+                let run = &mut self.runs[at];
+                run.first += 1;
+                run.span.from = self.places[run.first].from;
+            }
+        }
+    }
+
     /// The bytes of `run`, decimal only where they must be or are known to be.
     pub fn bytes(&self, run: &Run, numbers: Numbers) -> &[u8] {
         let decimal =
@@ -189,6 +209,9 @@ impl Scan {
                 self.time = self.time.or(Some(found.micros));
                 return found.to;
             }
+        }
+        if line[at..].starts_with(b"16#") {
+            return self.based(line, at);
         }
         let to = at + line[at..].iter().take_while(|c| is_word(**c)).count();
         let first = self.hex.len();
@@ -279,6 +302,21 @@ impl Scan {
         }
     }
 
+    /// `16#01`, as programs for controllers have it.
+    fn based(&mut self, line: &[u8], at: usize) -> usize {
+        let from = at + 3;
+        let to = from + line[from..].iter().take_while(|c| is_word(**c)).count();
+        let text = &line[from..to];
+        if matches!(text.len(), 1 | 2) && text.iter().all(u8::is_ascii_hexdigit) {
+            let first = self.hex.len();
+            self.push(hex_value(text), 0, at, to);
+            self.join(line, at, to, first, (true, false, true));
+        } else {
+            self.stranger();
+        }
+        to
+    }
+
     fn push(&mut self, hex: u8, decimal: u8, from: usize, to: usize) {
         self.hex.push(hex);
         if !self.hex_only {
@@ -366,6 +404,33 @@ impl Scan {
             (self.strong, self.weak) = (None, None);
         }
         self.runs.push(run);
+    }
+
+    /// Who speaks where an arrow comes right behind a word for one side: `master -> slave`.
+    fn party(&self, arrow: Sender) -> Option<Sender> {
+        let Some(Sender::Says(before)) = self.weak.filter(|_| self.words_since == 0) else { return None };
+        Some(Sender::Says(match (arrow, before) {
+            (Sender::Other, Direction::Request) => Direction::Response,
+            (Sender::Other, Direction::Response) => Direction::Request,
+            _ => before,
+        }))
+    }
+
+    /// Whether a number below 0 begins at a minus, as some languages write bytes: `4, -40, 0`.
+    fn is_negative(&self, line: &[u8], at: usize) -> bool {
+        let apart = at.checked_sub(1).is_some_and(|before| matches!(line[before], b' ' | b',' | b'[' | b'{'));
+        let number =
+            digits(line, at + 1).filter(|(value, _)| (1..=128).contains(value) && line[at + 1] != b'0');
+        let ends = |to: usize| line.get(to).is_none_or(|c| matches!(c, b' ' | b',' | b']' | b'}' | b';'));
+        apart && number.is_some_and(|(_, to)| ends(to))
+    }
+
+    fn negative(&mut self, line: &[u8], at: usize) -> usize {
+        let Some((value, to)) = digits(line, at + 1) else { return at + 1 };
+        let first = self.hex.len();
+        self.push(0, (value as u8).wrapping_neg(), at, to);
+        self.join(line, at, to, first, (false, true, false));
+        to
     }
 
     fn say(&mut self, sender: Sender, weight: Weight) {
@@ -486,7 +551,7 @@ fn separator(gap: &[u8]) -> Option<u8> {
         match c {
             b' ' | b'\t' => {}
             b',' | b';' | b':' | b'.' | b'-' | b'|' | b'/' | b'[' | b']' | b'<' | b'>' | b'"' | b'\''
-            | b'_' => {
+            | b'_' | b'$' | b'%' => {
                 if found == b' ' {
                     found = *c;
                 }
@@ -564,7 +629,7 @@ fn hex_value(digits: &[u8]) -> u8 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::field::{Direction, hex};
+    use crate::field::hex;
 
     /// The bytes of the longest run.
     fn read(text: &str) -> (String, Option<Sender>) {
@@ -596,6 +661,10 @@ mod tests {
             "send 0x010300C800038435 to COM3",
             "Tx=010300c800038435;",
             "01h 03h 00h 0C8h 00h 03h 84h 35h",
+            "16#01 16#03 16#00 16#C8 16#00 16#03 16#84 16#35",
+            "$01,$03,$00,$C8,$00,$03,$84,$35",
+            "%01%03%00%C8%00%03%84%35",
+            "sent [1, 3, 0, -56, 0, 3, -124, 53]",
         ] {
             assert_eq!(read(text).0, "01 03 00 C8 00 03 84 35", "{text}");
         }
@@ -612,6 +681,9 @@ mod tests {
         assert_eq!(says("-> 01 03 00 C8 00"), Some(Sender::Logger));
         assert_eq!(says("<01><03><02><00>"), Some(Sender::Other));
         assert_eq!(says("01 03 00 C8"), None);
+        assert_eq!(says("master -> slave: 01 03 00 C8"), Some(Sender::Says(Direction::Request)));
+        assert_eq!(says("slave -> master: 01 03 00 C8"), Some(Sender::Says(Direction::Response)));
+        assert_eq!(says("master <- slave: 01 03 00 C8"), Some(Sender::Says(Direction::Response)));
     }
 
     #[test]

@@ -31,6 +31,8 @@ use words::Weight;
 pub struct Form {
     /// How numbers without a mark are written; `None` where each tells.
     pub numbers: Option<Numbers>,
+    /// The first number counts the bytes behind it, see [`counted`].
+    pub counted: bool,
     /// What a person marked in one line.
     pub marks: Option<Marks>,
 }
@@ -128,7 +130,7 @@ impl Reader {
         }
         self.after_return &= rest.is_empty();
         self.carry.extend_from_slice(rest);
-        while self.carry.len() > LONGEST_LINE {
+        if self.carry.len() > LONGEST_LINE {
             self.cut(sink);
         }
     }
@@ -163,15 +165,20 @@ impl Reader {
         self.long = false;
     }
 
-    /// Reads what is there of a long line, up to a place where no byte is cut.
+    /// Reads what is there of a long line, in parts that end where no byte is cut.
     fn cut(&mut self, sink: &mut dyn FnMut(Event<'_>)) {
-        let mut carry = std::mem::take(&mut self.carry);
         let blank = |c: &u8| matches!(c, b' ' | b'\t' | b',' | b';' | b':' | b'-' | b'[' | b'<');
-        let at = carry[..LONGEST_LINE].iter().rposition(blank).filter(|at| *at > 0).unwrap_or(LONGEST_LINE);
-        self.read(&carry[..at], sink);
-        self.long = true;
-        self.offset += at as u64;
-        carry.drain(..at);
+        let mut carry = std::mem::take(&mut self.carry);
+        let mut from = 0;
+        while carry.len() - from > LONGEST_LINE {
+            let part = &carry[from..from + LONGEST_LINE];
+            let length = part.iter().rposition(blank).filter(|at| *at > 0).unwrap_or(LONGEST_LINE);
+            self.read(&part[..length], sink);
+            self.long = true;
+            self.offset += length as u64;
+            from += length;
+        }
+        carry.drain(..from);
         self.carry = carry;
     }
 
@@ -184,6 +191,9 @@ impl Reader {
         let marked = self.form.marks.as_ref().and_then(|marks| marks.bytes_from(line));
         let from = row.map_or(0, |row| row.from).max(marked.unwrap_or(0));
         self.scan.read(line, from, self.form.numbers);
+        if self.form.counted {
+            self.scan.drop_counts();
+        }
         if row.is_some_and(|row| row.low_first) {
             swap_words(&mut self.scan);
         }
@@ -209,7 +219,12 @@ impl Reader {
         };
         let good = |run: &&Run| run.len() >= least(run);
         let several = self.scan.runs.iter().filter(|run| run.len() >= 4 && run.said).count() > 1;
-        let best = self.scan.runs.iter().filter(good).max_by_key(|run| (run.marked, run.len()));
+        // Names and addresses can be hex, too; but what is said to be sent or received is no name.
+        let weight = |run: &&Run| {
+            let telegram = run.said && run.len() >= 4;
+            (run.marked && (run.tokens() > 1 || telegram), telegram, run.len())
+        };
+        let best = self.scan.runs.iter().filter(good).max_by_key(weight);
         let Some(best) = best else { return self.without_bytes(line, time, sink) };
         let header = self.header.as_mut().filter(|_| alone || row.is_some());
         let joined = header.as_ref().is_some_and(|header| header.row > 0);
@@ -319,6 +334,29 @@ pub fn recognise(text: &[u8]) -> Recognised {
     reader.finish(&mut count);
     let numbers = layout.and_then(|layout| layout.numbers).unwrap_or_else(|| numbers(text));
     Recognised { layout, numbers, with_bytes, telling }
+}
+
+/// Whether each line's first number counts the bytes behind it, with nothing else to tell it from
+/// them: `8 01 03 00 C8 00 03 84 35`.
+pub fn counted(text: &[u8], numbers: Option<Numbers>) -> bool {
+    const ENOUGH: usize = 1 << 14;
+    let text = &text[..text.len().min(ENOUGH)];
+    // The last line may be cut.
+    let end = text.iter().rposition(|c| matches!(c, b'\n' | b'\r')).unwrap_or(text.len());
+    let mut scan = Scan::default();
+    let (mut least, mut most) = (usize::MAX, 0);
+    for line in text[..end].split(|c| matches!(c, b'\n' | b'\r')) {
+        scan.read(line, 0, numbers);
+        let Some(run) = scan.runs.iter().filter(|run| run.len() >= 4).max_by_key(|run| run.len()) else {
+            continue;
+        };
+        if !scan.counts(run) {
+            return false;
+        }
+        (least, most) = (least.min(run.len()), most.max(run.len()));
+    }
+    // Telegrams of one length for one unit could look the same.
+    least < most
 }
 
 /// Hex, unless the numbers of most lines can only be decimal.

@@ -54,11 +54,13 @@ static WORDS: &[(&str, Sender, Weight)] = &[
     ("command", Says(Request), Weak),
     ("cmd", Says(Request), Weak),
     ("master", Says(Request), Weak),
+    ("client", Says(Request), Weak),
     ("response", Says(Response), Strong),
     ("resp", Says(Response), Strong),
     ("answer", Says(Response), Strong),
     ("reply", Says(Response), Strong),
     ("slave", Says(Response), Weak),
+    ("server", Says(Response), Weak),
 ];
 
 /// What `word` says, in whatever letters it is written.

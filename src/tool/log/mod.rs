@@ -23,7 +23,7 @@ use super::decode::{Report, decode};
 use crate::dialogue::traffic::{Chunk, Hint, Traffic, statistics};
 use crate::dialogue::{self, Candidate, Choice};
 use crate::frame::split::{Begins, Splitter, can_split};
-use crate::frame::{PROTOCOLS, Protocol, Verdict, modbus_ascii, split};
+use crate::frame::{PROTOCOLS, Protocol, Settings, Verdict, modbus_ascii, modbus_pdu, split};
 use crate::message;
 use crate::text::log::{self, Event, Form, Reader, Sender};
 
@@ -118,10 +118,20 @@ pub fn decode_file(file: &[u8], reading: &Reading, options: Options) -> Result<R
         log => log?,
     };
     if reading.marks.is_none() && reading.input != Input::Binary && log.is_plain() {
-        return Ok(decode(&String::from_utf8_lossy(file), options));
+        let report = decode(&String::from_utf8_lossy(file), options);
+        let right = report.telegrams.iter().filter(|telegram| telegram.verdict == Verdict::Right).count();
+        // Counters and remarks beside the bytes are told apart by a log's reader only.
+        let others = log.entries().iter().filter(|entry| entry.counts()).count() - log.right();
+        let better = right < log.right() || report.telegrams.len() - right > others;
+        if !better || log.right() <= FEW {
+            return Ok(report);
+        }
     }
     Ok(log.whole_report(&file))
 }
+
+/// So many right telegrams, or fewer, make no log.
+const FEW: usize = 2;
 
 /// What a file's beginning must hold at least, where the file has so much, for [`Log::open`].
 pub const BEGINNING: usize = 1 << 16;
@@ -153,7 +163,9 @@ impl Log {
             Format::Text { numbers, .. } => Some(numbers),
             _ => None,
         });
-        let form = Form { numbers, marks: reading.marks.clone() };
+        let is_text = matches!(format, Format::Text { .. });
+        let counted = is_text && log::counted(&text, numbers);
+        let form = Form { numbers, counted, marks: reading.marks.clone() };
         let choice = choose(&format, &text, &form, &options);
         let mut traffic = Traffic::new(choice.protocol, &options.settings.frame);
         let reader = || Box::new(Reader::new(form.clone()));
@@ -267,10 +279,14 @@ impl Log {
         let Format::Text { layout: None, numbers: Numbers::Hex, tells: false } = self.format else {
             return false;
         };
-        let right = self.entries().iter().filter(|entry| entry.verdict == Verdict::Right).count();
         // Prose between telegrams would be marked, word for word.
-        let prose = right > 2 && !self.unread.is_empty();
+        let prose = self.right() > FEW && !self.unread.is_empty();
         self.transcoded.is_none() && !prose
+    }
+
+    /// How many telegrams have a right check.
+    fn right(&self) -> usize {
+        self.entries().iter().filter(|entry| entry.verdict == Verdict::Right && entry.counts()).count()
     }
 
     /// How many directions of connections carry no telegrams.
@@ -419,18 +435,7 @@ fn choose(format: &Format, text: &[u8], form: &Form, options: &Options) -> Choic
     let streams: Vec<&[u8]> =
         pieces.iter().map(|(bytes, _)| bytes.as_slice()).filter(|bytes| bytes.len() > 300).collect();
     if !streams.is_empty() {
-        let splitter = Splitter::new(settings.dialect);
-        let covered = |protocol: &'static Protocol| -> usize {
-            streams.iter().map(|bytes| covered(&splitter, protocol, &bytes[..bytes.len().min(1 << 15)])).sum()
-        };
-        let splitting = PROTOCOLS.iter().copied().filter(|protocol| can_split(protocol));
-        let best = splitting
-            .map(|protocol| (covered(protocol), protocol))
-            .reduce(|best, other| if other.0 > best.0 { other } else { best });
-        if let Some((_, protocol)) = best {
-            let reason = message!("most of its bytes are telegrams of this protocol");
-            return Choice { protocol, reason, others: Vec::new() };
-        }
+        return fullest(&streams, settings).0;
     }
     let candidates: Vec<Candidate<'_>> = pieces
         .iter()
@@ -443,6 +448,12 @@ fn choose(format: &Format, text: &[u8], form: &Form, options: &Options) -> Choic
     let most =
         choices.iter().enumerate().max_by_key(|(index, choice)| (count(choice), std::cmp::Reverse(*index)));
     match most {
+        Some((_, choice)) if std::ptr::eq(choice.protocol, &modbus_pdu::PROTOCOL) => {
+            // Perhaps each piece is a part of a telegram only.
+            let joined = pieces.iter().flat_map(|(bytes, _)| bytes).copied().collect::<Vec<u8>>();
+            let (whole, covered) = fullest(&[&joined], settings);
+            if covered * 10 > joined.len() * 9 { whole } else { choice.clone() }
+        }
         Some((_, choice)) => choice.clone(),
         None => Choice {
             protocol: PROTOCOLS[0],
@@ -480,6 +491,21 @@ fn pieces(text: &[u8], form: &Form) -> Vec<(Vec<u8>, bool)> {
         }
     }
     pieces
+}
+
+/// The protocol whose telegrams are most of `streams`, and how many bytes they are.
+fn fullest(streams: &[&[u8]], settings: &Settings) -> (Choice, usize) {
+    let splitter = Splitter::new(settings.dialect);
+    let covered = |protocol: &'static Protocol| -> usize {
+        streams.iter().map(|bytes| covered(&splitter, protocol, &bytes[..bytes.len().min(1 << 15)])).sum()
+    };
+    let splitting = PROTOCOLS.iter().copied().filter(|protocol| can_split(protocol));
+    let (covered, protocol) = splitting
+        .map(|protocol| (covered(protocol), protocol))
+        .reduce(|best, other| if other.0 > best.0 { other } else { best })
+        .unwrap_or((0, PROTOCOLS[0]));
+    let reason = message!("most of its bytes are telegrams of this protocol");
+    (Choice { protocol, reason, others: Vec::new() }, covered)
 }
 
 /// How many of `bytes` are telegrams of `protocol`.
