@@ -278,3 +278,44 @@ fn a_bare_stream_is_a_conversation_too() {
     assert_eq!(partners, [Some(1), Some(0), None, Some(4), Some(3), Some(6), Some(5)]);
     assert!(log.entries().iter().all(|entry| log.latency(entry).is_none()));
 }
+
+/// What is behind many errors is one finding, with its telegrams.
+#[test]
+fn findings_name_what_is_behind_errors() {
+    let found = |lines: &[(u64, &str, Vec<u8>)]| -> Vec<(&'static str, usize)> {
+        let text = log(lines);
+        let findings = read(&text).findings(&text.as_bytes());
+        findings.iter().map(|finding| (finding.code, finding.evidence.len())).collect()
+    };
+    // A converter swallows 11h and 13h.
+    let mut lines = Vec::new();
+    for n in 0..40_u8 {
+        lines.push((u64::from(n) * 100, "Tx", rtu(&[5, 3, 0, 200, 0, 2])));
+        let whole = rtu(&[5, 3, 4, 0x42, n, 0x11, 0x80]);
+        let kept = whole.into_iter().filter(|byte| !matches!(byte, 0x11 | 0x13)).collect();
+        lines.push((u64::from(n) * 100 + 20, "Rx", kept));
+    }
+    assert_eq!(found(&lines)[0], ("flow-control", 40));
+    // The check is written high byte first.
+    for (_, word, bytes) in &mut lines {
+        if *word == "Rx" {
+            *bytes = rtu(&[5, 3, 4, 0x42, 1, 2, 3]);
+            let end = bytes.len();
+            bytes.swap(end - 1, end - 2);
+        }
+    }
+    assert_eq!(found(&lines)[0], ("check-swapped", 40));
+    // A unit is silent, another refuses, a third is slow in the middle of its telegrams.
+    let mut lines = Vec::new();
+    for n in 0..10 {
+        lines.push((n * 500, "Tx", ask(9)));
+        lines.push((n * 500 + 100, "Tx", ask(5)));
+        lines.push((n * 500 + 120, "Rx", rtu(&[5, 0x83, 2])));
+        lines.push((n * 500 + 200, "Tx", ask(7)));
+        let whole = answer(7);
+        lines.push((n * 500 + 220, "Rx", whole[..4].to_vec()));
+        lines.push((n * 500 + 240, "Rx", whole[4..].to_vec()));
+    }
+    assert_eq!(found(&lines), [("unit-silent", 10), ("always-refused", 10), ("pauses-within", 10)]);
+    assert_eq!(found(&[(0, "Tx", ask(5)), (20, "Rx", answer(5))]), []);
+}

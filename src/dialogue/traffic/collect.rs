@@ -53,6 +53,8 @@ pub struct Traffic {
     days: i64,
     /// How many more entries fit.
     room: usize,
+    /// See [`pauses`](Self::pauses).
+    pauses: Vec<(u32, u32)>,
 }
 
 /// Bytes that wait for the rest of their telegram.
@@ -125,6 +127,7 @@ impl Traffic {
             clock: NO_TIME,
             days: 0,
             room: MOST_ENTRIES,
+            pauses: Vec::new(),
         }
     }
 
@@ -285,6 +288,22 @@ impl Traffic {
         }
     }
 
+    /// The last telegram came in several chunks: notes the longest pause between them.
+    fn note_pause(&mut self, index: usize) {
+        let rows = self.lanes[index].rows.windows(2);
+        let timed = rows.filter(|pair| pair[0].time != NO_TIME && pair[1].time != NO_TIME);
+        if let Some(pause) = timed.map(|pair| pair[1].time - pair[0].time).max()
+            && let Some(entry) = self.entries.len().checked_sub(1)
+        {
+            self.pauses.push((entry as u32, pause.clamp(0, PAUSE) as u32));
+        }
+    }
+
+    /// The telegrams that came in several chunks, with the longest pause between them in microseconds.
+    pub fn pauses(&self) -> &[(u32, u32)] {
+        &self.pauses
+    }
+
     /// How many directions of connections carry no telegrams.
     pub fn foreign(&self) -> usize {
         self.lanes.iter().filter(|lane| matches!(lane.carries, Carries::Foreign)).count()
@@ -318,6 +337,7 @@ impl Traffic {
             self.broken(index, &buffer[..held], 0);
             from = held;
         } else if held > 0 {
+            self.note_pause(index);
             from = buffer.len();
         }
         let piece = &buffer[from..];

@@ -32,6 +32,7 @@ impl Log {
         findings.extend(self.of_refusals());
         findings.extend(self.of_lateness());
         findings.extend(self.of_clients());
+        findings.extend(self.of_pauses());
         findings
     }
 
@@ -200,6 +201,27 @@ impl Log {
                 n = many(hasty.len(), "request")
             ),
             evidence: hasty.into_iter().take(EVIDENCE).collect(),
+        })
+    }
+}
+
+impl Log {
+    /// Pauses within telegrams, where the log has times for their parts.
+    fn of_pauses(&self) -> Option<Finding> {
+        const FEWEST: usize = 3;
+        /// A pause that ends a telegram at 9600 baud is under 4 ms.
+        const LONG: u32 = 5000;
+        let long: Vec<&(u32, u32)> =
+            self.traffic.pauses().iter().filter(|(_, pause)| *pause > LONG).collect();
+        let longest = long.iter().map(|(_, pause)| *pause).max()?;
+        (long.len() >= FEWEST).then(|| Finding {
+            code: "pauses-within",
+            text: message!(
+                "{n} came in parts, with pauses of up to {ms} ms within: for Modbus RTU a pause of 3.5 characters ends a telegram. Look at the converter's latency timer or buffer",
+                n = many(long.len(), "telegram"),
+                ms = longest as usize / 1000
+            ),
+            evidence: long.iter().map(|(index, _)| *index).take(EVIDENCE).collect(),
         })
     }
 }
