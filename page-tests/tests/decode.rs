@@ -39,7 +39,8 @@ async fn a_failed_check_shows_what_may_have_happened() -> Result {
     assert!(causes[0].contains("Fits by chance: 1 in "), "{causes:?}");
     page.click(".causes summary").await?;
     assert_eq!(page.texts(".causes li:first-child mark").await?, ["08", "80"]);
-    assert_eq!(page.text(".strip .lit button").await?, "08", "the difference is marked in the bytes");
+    let lit = page.texts(".strip .lit button").await?;
+    assert!(lit.contains(&"08".to_owned()), "the difference is marked in the bytes: {lit:?}");
     page.picture("causes-desktop-light").await?;
     // Both, one beside the other.
     page.click(".causes li:first-child a").await?;
