@@ -54,7 +54,7 @@ fn run() -> Result<String, String> {
             }
             "--input" => {
                 let key = choice(&Input::KEYS.map(|(key, _)| key))?;
-                reading.input = Input::KEYS.into_iter().find(|(word, _)| *word == key).unwrap_or_default().1;
+                reading.input = Input::of(key).unwrap_or_default();
             }
             "--language" => _ = choice(&["en"])?,
             "--settings" => {

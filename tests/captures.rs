@@ -109,7 +109,7 @@ fn segments(file: &[u8], piece: usize) -> (Vec<Carried>, Result<(), Fault>) {
     for part in file.chunks(piece) {
         outcome = outcome.and(capture.push(part, &mut take));
     }
-    outcome = outcome.and(capture.finish(&mut take).map(drop));
+    outcome = outcome.and(capture.finish(&mut take));
     (found, outcome)
 }
 

@@ -24,19 +24,6 @@ use std::net::{IpAddr, SocketAddr};
 pub struct Capture {
     packets: Packets,
     connections: Connections,
-    tally: Tally,
-}
-
-/// What there was in a capture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Tally {
-    pub packets: usize,
-    /// With bytes that TCP or UDP carried.
-    pub with_payload: usize,
-    /// Neither TCP nor UDP over IP.
-    pub other: usize,
-    /// Cut off by the program that captured them.
-    pub cut: usize,
 }
 
 impl Capture {
@@ -48,15 +35,14 @@ impl Capture {
     /// Takes the next part of the file, and gives what connections carried as soon as it is in
     /// order.
     pub fn push(&mut self, part: &[u8], sink: &mut dyn FnMut(Segment<'_>)) -> Result<(), Fault> {
-        let Self { packets, connections, tally } = self;
-        packets.push(part, &mut |packet| read(&packet, connections, tally, sink))
+        let Self { packets, connections } = self;
+        packets.push(part, &mut |packet| read(&packet, connections, sink))
     }
 
     /// The file ends: gives what waits behind gaps.
-    pub fn finish(&mut self, sink: &mut dyn FnMut(Segment<'_>)) -> Result<Tally, Fault> {
+    pub fn finish(&mut self, sink: &mut dyn FnMut(Segment<'_>)) -> Result<(), Fault> {
         self.connections.finish(sink);
-        self.packets.finish()?;
-        Ok(self.tally)
+        self.packets.finish()
     }
 
     /// The connections so far; [`Segment::connection`] counts them.
@@ -66,14 +52,7 @@ impl Capture {
 }
 
 /// Takes what a packet carries.
-fn read(
-    packet: &Packet<'_>,
-    connections: &mut Connections,
-    tally: &mut Tally,
-    sink: &mut dyn FnMut(Segment<'_>),
-) {
-    tally.packets += 1;
-    tally.cut += usize::from(packet.cut);
+fn read(packet: &Packet<'_>, connections: &mut Connections, sink: &mut dyn FnMut(Segment<'_>)) {
     let sliced = match packet.link {
         Link::Ethernet => LaxSlicedPacket::from_ethernet(packet.bytes).ok(),
         Link::Ip => LaxSlicedPacket::from_ip(packet.bytes).ok(),
@@ -100,17 +79,16 @@ fn read(
     let transport = sliced.and_then(|sliced| sliced.transport);
     match (ends, transport) {
         (Some((from, to)), Some(TransportSlice::Tcp(tcp))) => {
-            tally.with_payload += usize::from(!tcp.payload().is_empty());
             let ends =
                 (SocketAddr::new(from, tcp.source_port()), SocketAddr::new(to, tcp.destination_port()));
             connections.tcp(packet, ends, &tcp, sink);
         }
         (Some((from, to)), Some(TransportSlice::Udp(udp))) => {
-            tally.with_payload += usize::from(!udp.payload().is_empty());
             let ends =
                 (SocketAddr::new(from, udp.source_port()), SocketAddr::new(to, udp.destination_port()));
             connections.udp(packet, ends, udp.payload(), sink);
         }
-        _ => tally.other += 1,
+        // Neither TCP nor UDP over IP.
+        _ => {}
     }
 }

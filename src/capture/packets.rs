@@ -101,8 +101,6 @@ pub struct Packet<'a> {
     pub offset: u64,
     pub link: Link,
     pub bytes: &'a [u8],
-    /// Not all of it was captured.
-    pub cut: bool,
 }
 
 /// Reads the blocks of a file.
@@ -245,7 +243,6 @@ impl Packets {
                     offset,
                     link: *link,
                     bytes: frame.data,
-                    cut: frame.caplen < frame.origlen,
                 });
             }
             State::Pcapng { big, interfaces } => {
@@ -256,7 +253,7 @@ impl Packets {
                 let parsed = if *big { parse_block_be(block) } else { parse_block_le(block) };
                 let (_, parsed) = parsed.map_err(|_| damaged("a block is not laid out as its kind is"))?;
                 let known = |index: u32| interfaces.get(index as usize).copied();
-                let (interface, stamp, data, cut) = match &parsed {
+                let (interface, stamp, data) = match &parsed {
                     Block::InterfaceDescription(it) => {
                         interfaces.push(Interface {
                             link: Link::of(it.linktype),
@@ -268,11 +265,11 @@ impl Packets {
                     Block::EnhancedPacket(it) => {
                         let stamp = u64::from(it.ts_high) << 32 | u64::from(it.ts_low);
                         let data = it.data.get(..it.caplen as usize).unwrap_or(it.data);
-                        (known(it.if_id), stamp, data, it.caplen < it.origlen)
+                        (known(it.if_id), stamp, data)
                     }
                     Block::SimplePacket(it) => {
                         let data = it.data.get(..it.origlen as usize).unwrap_or(it.data);
-                        (known(0), 0, data, data.len() < it.origlen as usize)
+                        (known(0), 0, data)
                     }
                     _ => return Ok(Some(length)),
                 };
@@ -281,7 +278,7 @@ impl Packets {
                     let micros =
                         i64::try_from(u128::from(stamp) * 1_000_000 / u128::from(units)).unwrap_or(i64::MAX);
                     let time = micros.saturating_add(since.saturating_mul(1_000_000));
-                    sink(Packet { time, offset, link, bytes: data, cut });
+                    sink(Packet { time, offset, link, bytes: data });
                 }
             }
         }

@@ -72,7 +72,7 @@ fn choose(
     };
     let mut others: Vec<(&'static Protocol, Fit)> = Vec::new();
     for (protocol, fit) in PROTOCOLS.iter().copied().zip(fits) {
-        if fit.bits > COMPANY && !std::ptr::eq(protocol, chosen) {
+        if fit.bits > COMPANY && !protocol.is(chosen) {
             let at = others.partition_point(|(_, other)| other.bits >= fit.bits);
             others.insert(at, (protocol, fit));
         }

@@ -71,6 +71,11 @@ impl Protocol {
     pub fn of(key: &str) -> Option<&'static Self> {
         PROTOCOLS.iter().copied().find(|protocol| protocol.key == key)
     }
+
+    /// Whether it is this one.
+    pub fn is(&self, other: &Self) -> bool {
+        std::ptr::eq(self, other)
+    }
 }
 
 /// What tells a request from a response.

@@ -57,7 +57,7 @@ pub struct Place<'a> {
 pub fn can_split(protocol: &Protocol) -> bool {
     [&modbus_rtu::PROTOCOL, &modbus_tcp::PROTOCOL, &profibus_fdl::PROTOCOL]
         .into_iter()
-        .any(|known| std::ptr::eq(known, protocol))
+        .any(|known| known.is(protocol))
 }
 
 impl Splitter {
@@ -68,15 +68,28 @@ impl Splitter {
     /// What of `protocol` begins at `place`.
     #[inline]
     pub fn begins(&self, protocol: &'static Protocol, place: Place<'_>) -> Begins {
-        if std::ptr::eq(protocol, &raw const modbus_rtu::PROTOCOL) {
+        if protocol.is(&modbus_rtu::PROTOCOL) {
             self.rtu(place)
-        } else if std::ptr::eq(protocol, &raw const modbus_tcp::PROTOCOL) {
+        } else if protocol.is(&modbus_tcp::PROTOCOL) {
             self.tcp(place)
-        } else if std::ptr::eq(protocol, &raw const profibus_fdl::PROTOCOL) {
+        } else if protocol.is(&profibus_fdl::PROTOCOL) {
             fdl(place)
         } else {
             Begins::Nothing
         }
+    }
+
+    /// How many of `bytes` are telegrams of `protocol`, by themselves.
+    pub fn covered(&self, protocol: &'static Protocol, bytes: &[u8]) -> usize {
+        let (mut at, mut covered, mut in_step) = (0, 0, true);
+        while at < bytes.len() {
+            let place = Place { bytes: &bytes[at..], last: true, in_step, waiting: None };
+            match self.begins(protocol, place) {
+                Begins::Telegram(length) => (at, covered, in_step) = (at + length, covered + length, true),
+                _ => (at, in_step) = (at + 1, false),
+            }
+        }
+        covered
     }
 
     /// Whether `function`, without the bit of an exception, is known.

@@ -34,7 +34,6 @@ pub enum Length {
 
 impl Length {
     /// The length that the PDU beginning with `bytes` must have, as far as its bytes tell.
-    #[inline]
     pub fn of(self, bytes: &[u8]) -> Option<usize> {
         match self {
             Self::Fixed(length) => Some(length),
@@ -52,7 +51,6 @@ impl Length {
     }
 
     /// Whether `bytes` can be a whole PDU of this length.
-    #[inline]
     pub fn fits(self, bytes: &[u8]) -> bool {
         let whole = |from: usize, unit: usize| {
             bytes.len().checked_sub(from).is_some_and(|units| units > 0 && units.is_multiple_of(unit))
@@ -71,7 +69,6 @@ impl Length {
 }
 
 /// The number of `width` bytes at `at`, if they are there.
-#[inline]
 fn number(bytes: &[u8], at: usize, width: usize) -> Option<u64> {
     let there = bytes.get(at..at + width)?;
     Some(there.iter().fold(0, |number, byte| number << 8 | u64::from(*byte)))

@@ -1,7 +1,7 @@
 use super::decode::{Options, Report};
 use crate::dialogue::{self, Certainty, Context, Guess, Hypothesis, chance_of_change, hypotheses};
 use crate::field::{self, Message, Span};
-use crate::frame::{Speaker, Verdict, modbus_rtu};
+use crate::frame::{Frame, Speaker, Verdict, modbus_rtu};
 use crate::message;
 use crate::walk;
 
@@ -49,9 +49,10 @@ impl Report {
         let lost = |code: &str| matches!(code, "single-digit" | "odd-digits" | "digit-missing");
         let digit_lost = telegram.line.remarks.iter().any(|remark| lost(remark.code));
         let context = Context { request: before, others: &others, digit_lost };
+        let asked = telegram.answers.map(|request| self.read(request).0);
         let mut found: Vec<Explanation> = Vec::new();
         for hypothesis in hypotheses(&telegram.line.bytes, telegram.choice.protocol, context) {
-            let explanation = self.explain(index, hypothesis);
+            let explanation = self.explain(index, hypothesis, asked.as_deref());
             let rank = |one: &Explanation| {
                 // Where nothing else is wrong, a device that knows the registers says more than chance.
                 let known = if one.known { 0 } else { 3 };
@@ -73,7 +74,7 @@ impl Report {
         const MANY: f64 = 0.5;
         let telegram = self.telegrams.get(index).filter(|it| it.verdict == Verdict::Wrong)?;
         let length = telegram.line.bytes.len();
-        if !std::ptr::eq(telegram.choice.protocol, &raw const modbus_rtu::PROTOCOL) {
+        if !telegram.choice.protocol.is(&modbus_rtu::PROTOCOL) {
             return Some(message!(
                 "a check of one byte is right by chance once in 256: it cannot be told which byte is wrong"
             ));
@@ -116,8 +117,8 @@ impl Report {
         (!device.blocks.is_empty() && device.problems.is_empty(), device.problems.len())
     }
 
-    /// Reads a hypothesis as what it would be.
-    fn explain(&self, index: usize, hypothesis: Hypothesis) -> Explanation {
+    /// Reads a hypothesis as what it would be, a response to `asked`.
+    fn explain(&self, index: usize, hypothesis: Hypothesis, asked: Option<&dyn Frame>) -> Explanation {
         let telegram = &self.telegrams[index];
         let protocol = hypothesis.protocol.unwrap_or(telegram.choice.protocol);
         let bytes = &hypothesis.bytes;
@@ -129,12 +130,11 @@ impl Report {
                 let (pdu, around) = inside(bytes);
                 dialogue::direction(pdu, around, telegram.answers.is_some(), settings.frame.dialect)
             }
-            _ => Guess { ..telegram.guess.clone() },
+            _ => telegram.guess.clone(),
         };
         let mut frame = (protocol.expect)(bytes, guess.direction, &settings.frame);
         let mut strange = 0;
-        if let Some(request) = telegram.answers {
-            let (asked, _) = self.read(request);
+        if let (Some(asked), Some(request)) = (asked, telegram.answers) {
             frame.answer(&asked.content());
             strange = usize::from(
                 (protocol.exchange)(bytes) != (protocol.exchange)(&self.telegrams[request].line.bytes),

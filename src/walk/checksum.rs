@@ -46,8 +46,13 @@ pub fn crc_residue(frame: &[u8]) -> u16 {
         let others = others.iter().zip(&BLOCK_TABLES[2..]);
         others.fold(crc, |crc, (byte, table)| crc ^ table[usize::from(*byte)])
     });
-    let last = &BLOCK_TABLES[BLOCK - 1];
-    rest.iter().fold(crc, |crc, byte| crc >> 8 ^ last[usize::from(crc as u8 ^ byte)])
+    rest.iter().fold(crc, |crc, byte| crc_step(crc, *byte))
+}
+
+/// The CRC behind one more byte.
+#[inline]
+pub const fn crc_step(crc: u16, byte: u8) -> u16 {
+    crc >> 8 ^ BLOCK_TABLES[BLOCK - 1][(crc as u8 ^ byte) as usize]
 }
 
 /// So many bytes are taken at once.

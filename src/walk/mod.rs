@@ -21,7 +21,7 @@ mod read;
 mod sample;
 mod write;
 
-pub use checksum::{Algorithm, CRC_16_MODBUS, FCS, LRC, crc_residue};
+pub use checksum::{Algorithm, CRC_16_MODBUS, FCS, LRC, crc_residue, crc_step};
 pub use deviation::{Deviation, Deviations};
 pub use read::{Reading, UNEXPECTED, read};
 pub use sample::sample;

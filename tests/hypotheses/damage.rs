@@ -2,7 +2,7 @@
 //! where that can be decided, and in the list nearly always.
 //!
 //! Decidable is a damage whose cause would be found by chance less than once in eight times
-//! (`Hypothesis::is_telling`): a flipped bit always is, a changed byte up to 32 bytes of telegram, a lost
+//! (`Decides`): a flipped bit always is, a changed byte up to 32 bytes of telegram, a lost
 //! one as well. A cause that "always" fits, such as a wrong check, counts as decidable, too: then the
 //! content alone has to decide.
 

@@ -10,15 +10,8 @@ use crate::tool::log::{Entry, Log, Role, Source};
 pub fn rows(log: &Log, source: &dyn Source, indices: &[u32], first: usize, total: usize) -> Markup {
     let entries = log.entries();
     // A response says more when its request is known.
-    let mut read: Vec<usize> = indices
-        .iter()
-        .map(|index| *index as usize)
-        .filter(|index| entries[*index].role != Role::Discarded)
-        .flat_map(|index| [Some(index), entries[index].partner()])
-        .flatten()
-        .collect();
-    read.sort_unstable();
-    read.dedup();
+    let telegrams = indices.iter().map(|index| *index as usize);
+    let read = log.with_partners(telegrams.filter(|index| entries[*index].role != Role::Discarded));
     let report = log.report(source, &read);
     let said = |index: usize| {
         let place = read.binary_search(&index).ok()?;

@@ -18,9 +18,7 @@ pub fn telegram(log: &Log, source: &dyn Source, index: usize) -> Markup {
         return discarded(log, entry, index);
     }
     let partner = entry.partner();
-    let read = log.context(index);
-    let report = log.report(source, &read);
-    let place = read.iter().position(|other| *other == index).unwrap_or_default();
+    let (report, place) = log.report_of(source, index);
     let Some(shown) = Shown::of(&report, place, index, log.entries().len()) else { return html! {} };
     let texts: Vec<String> = report.telegrams.iter().map(|telegram| hex(&telegram.line.bytes)).collect();
     let mut options = log.options().clone();

@@ -347,10 +347,7 @@ impl Opened {
         let entries = self.log.entries();
         let chosen: Vec<usize> =
             chosen.iter().map(|index| *index as usize).filter(|index| entries[*index].counts()).collect();
-        let mut read: Vec<usize> =
-            chosen.iter().flat_map(|index| [Some(*index), entries[*index].partner()]).flatten().collect();
-        read.sort_unstable();
-        read.dedup();
+        let read = self.log.with_partners(chosen.iter().copied());
         let mut report = self.log.report(&self.file, &read);
         for telegram in &mut report.telegrams {
             let number = telegram.number.to_string();
@@ -399,7 +396,6 @@ fn story_text(log: &Log) -> String {
 fn reading(pairs: &[(String, String)]) -> Reading {
     let value =
         |key: &str| pairs.iter().find(|(other, _)| other == key).map_or("", |(_, value)| value.as_str());
-    let input = Input::KEYS.into_iter().find(|(key, _)| *key == value("input"));
     let numbers = match value("numbers") {
         "hex" => Some(Numbers::Hex),
         "decimal" => Some(Numbers::Decimal),
@@ -419,7 +415,7 @@ fn reading(pairs: &[(String, String)]) -> Reading {
         }),
         bytes: Place::of(line, bytes),
     });
-    Reading { input: input.unwrap_or_default().1, numbers, marks }
+    Reading { input: Input::of(value("input")).unwrap_or_default(), numbers, marks }
 }
 
 fn filter(pairs: &[(String, String)]) -> Filter {

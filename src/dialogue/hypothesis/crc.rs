@@ -1,31 +1,7 @@
 //! The arithmetic of CRC-16/MODBUS that lets a search do without trying everything: the check is
 //! linear, so that the effect of a difference on it does not depend on the bytes around it.
 
-/// One byte of CRC-16/MODBUS.
-pub const fn step(crc: u16, byte: u8) -> u16 {
-    crc >> 8 ^ TABLE[((crc ^ byte as u16) & 0xFF) as usize]
-}
-
-static TABLE: [u16; 256] = {
-    let mut table = [0; 256];
-    let mut byte = 0;
-    while byte < 256 {
-        let mut crc = byte as u16;
-        let mut bit = 0;
-        while bit < 8 {
-            crc = if crc & 1 == 1 { crc >> 1 ^ 0xA001 } else { crc >> 1 };
-            bit += 1;
-        }
-        table[byte] = crc;
-        byte += 1;
-    }
-    table
-};
-
-/// The CRC over a whole frame, which is 0 where its check is right.
-pub fn residue(bytes: &[u8]) -> u16 {
-    bytes.iter().fold(0xFFFF, |crc, byte| step(crc, *byte))
-}
+pub use crate::walk::{crc_residue as residue, crc_step as step};
 
 /// The CRC over the bytes before each place.
 pub fn before(bytes: &[u8]) -> Vec<u16> {
@@ -45,7 +21,7 @@ pub fn needed(bytes: &[u8]) -> Vec<u16> {
         let high = (needed[at + 1] >> 8) as u8;
         // The table's high bytes are all different: this one tells which entry was used.
         let index = UNDO[high as usize];
-        needed[at] = (needed[at + 1] ^ TABLE[index as usize]) << 8 | u16::from(index ^ bytes[at]);
+        needed[at] = (needed[at + 1] ^ step(index.into(), 0)) << 8 | u16::from(index ^ bytes[at]);
     }
     needed
 }
@@ -54,7 +30,7 @@ static UNDO: [u8; 256] = {
     let mut undo = [0; 256];
     let mut index = 0;
     while index < 256 {
-        undo[(TABLE[index] >> 8) as usize] = index as u8;
+        undo[(step(index, 0) >> 8) as usize] = index as u8;
         index += 1;
     }
     undo
@@ -63,7 +39,7 @@ static UNDO: [u8; 256] = {
 /// The byte that leads from one CRC to another, if one does.
 pub fn between(from: u16, to: u16) -> Option<u8> {
     let index = UNDO[(to >> 8) as usize];
-    (to == from >> 8 ^ TABLE[index as usize]).then_some(index ^ from as u8)
+    (to == from >> 8 ^ step(index.into(), 0)).then_some(index ^ from as u8)
 }
 
 #[cfg(test)]
@@ -74,7 +50,7 @@ mod tests {
 
     #[test]
     fn forwards_and_back_meet_in_a_right_frame() {
-        assert_eq!(residue(RIGHT), 0);
+        assert_eq!(crate::walk::crc_residue(RIGHT), 0);
         assert_eq!(before(RIGHT), needed(RIGHT));
         for (at, byte) in RIGHT.iter().enumerate() {
             assert_eq!(between(before(RIGHT)[at], needed(RIGHT)[at + 1]), Some(*byte));

@@ -62,7 +62,7 @@ const LONGEST: usize = 300;
 /// with its check; empty for protocols without one.
 pub fn hypotheses(bytes: &[u8], protocol: &'static Protocol, context: Context<'_>) -> Vec<Hypothesis> {
     let mut search = Search { found: Vec::new(), bytes, context, checks: CHECKS };
-    if std::ptr::eq(protocol, &raw const modbus_rtu::PROTOCOL) {
+    if protocol.is(&modbus_rtu::PROTOCOL) {
         if (4..=LONGEST).contains(&bytes.len()) {
             search.check();
             search.exchanged();
@@ -75,10 +75,7 @@ pub fn hypotheses(bytes: &[u8], protocol: &'static Protocol, context: Context<'_
             search.flow_control();
             search.frames();
         }
-    } else if [&modbus_ascii::PROTOCOL, &profibus_fdl::PROTOCOL]
-        .into_iter()
-        .any(|it| std::ptr::eq(it, protocol))
-    {
+    } else if [&modbus_ascii::PROTOCOL, &profibus_fdl::PROTOCOL].into_iter().any(|it| it.is(protocol)) {
         search.checks = 0x100;
         search.sum(protocol);
     }
@@ -143,11 +140,6 @@ impl Hypothesis {
             Some(tries) if tries < self.checks => message!("1 in 2"),
             _ => message!("always"),
         }
-    }
-
-    /// Whether finding it says something: by chance it would be found less than once in eight times.
-    pub fn is_telling(&self) -> bool {
-        self.tries.is_some_and(|tries| tries * 8 <= self.checks)
     }
 
     /// What is different: the bytes of `found` that are not in it, and its bytes that are not in

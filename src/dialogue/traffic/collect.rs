@@ -329,7 +329,7 @@ impl Traffic {
         let mut from = 0;
         if held > 0 && !self.whole(index, &buffer, 0) {
             let rest = &buffer[held..];
-            let longer = may_go_on && self.is_beginning(&buffer) && !self.is_right(rest);
+            let longer = may_go_on && self.is_beginning(&buffer) && !is_right(rest);
             if longer {
                 (self.lanes[index].held, self.lanes[index].buffer) = (buffer.len(), buffer);
                 return;
@@ -361,7 +361,7 @@ impl Traffic {
     fn is_beginning(&self, bytes: &[u8]) -> bool {
         /// Every function's length is told by so many bytes.
         const TELLING: usize = 12;
-        let rtu = std::ptr::eq(self.protocol, &raw const modbus_rtu::PROTOCOL);
+        let rtu = self.protocol.is(&modbus_rtu::PROTOCOL);
         let known = bytes.get(1).is_some_and(|function| self.splitter.knows(*function));
         let longer = |length: Option<usize>| match length {
             Some(length) => length > bytes.len(),
@@ -372,18 +372,10 @@ impl Traffic {
             && self.splitter.rtu_lengths(bytes).into_iter().any(longer)
     }
 
-    fn is_right(&self, bytes: &[u8]) -> bool {
-        bytes.len() >= modbus_rtu::RTU.shortest() && crc_residue(bytes) == 0
-    }
-
     /// Takes a piece that is one right telegram.
     fn whole(&mut self, index: usize, piece: &[u8], from: usize) -> bool {
-        let rtu = |bytes: &[u8]| {
-            (modbus_rtu::RTU.shortest()..=modbus_rtu::RTU.longest()).contains(&bytes.len())
-                && crc_residue(bytes) == 0
-        };
         let row = self.lanes[index].row(from);
-        if row.colon && !std::ptr::eq(self.protocol, &raw const profibus_fdl::PROTOCOL) {
+        if row.colon && !self.protocol.is(&profibus_fdl::PROTOCOL) {
             let verdict = modbus_ascii::ASCII.verdict(piece);
             self.add(index, piece, from, &modbus_ascii::PROTOCOL, verdict);
             return true;
@@ -396,7 +388,7 @@ impl Traffic {
             return true;
         }
         let main = self.protocol;
-        if !can_split(main) && !std::ptr::eq(main, &raw const modbus_ascii::PROTOCOL) {
+        if !can_split(main) && !main.is(&modbus_ascii::PROTOCOL) {
             let mut at = 0;
             while at < piece.len() {
                 let length = (main.first)(&piece[at..]).max(1);
@@ -407,7 +399,7 @@ impl Traffic {
             return true;
         }
         // A frame whose PDU has no length that its function has may hold a shorter one.
-        if rtu(piece)
+        if is_right(piece)
             && (self.splitter.sides(&piece[1..piece.len() - 2]) != [false; 2]
                 || !self.splitter.knows(piece[1]))
         {
@@ -415,12 +407,12 @@ impl Traffic {
             return true;
         }
         let place = Place { bytes: piece, last: true, in_step: true, waiting: None };
-        let strict = Place { in_step: std::ptr::eq(main, &raw const modbus_tcp::PROTOCOL), ..place };
+        let strict = Place { in_step: main.is(&modbus_tcp::PROTOCOL), ..place };
         if self.splitter.begins(&modbus_tcp::PROTOCOL, strict) == Begins::Telegram(piece.len()) {
             self.add(index, piece, from, &modbus_tcp::PROTOCOL, Verdict::NoCheck);
             return true;
         }
-        let fdl = std::ptr::eq(main, &raw const profibus_fdl::PROTOCOL);
+        let fdl = main.is(&profibus_fdl::PROTOCOL);
         if self.splitter.begins(&profibus_fdl::PROTOCOL, place) == Begins::Telegram(piece.len())
             && (fdl || piece.len() > 3)
         {
@@ -429,16 +421,16 @@ impl Traffic {
             self.add(index, piece, from, &profibus_fdl::PROTOCOL, verdict);
             return true;
         }
-        if std::ptr::eq(main, &raw const modbus_ascii::PROTOCOL) {
+        if main.is(&modbus_ascii::PROTOCOL) {
             self.add(index, piece, from, main, (main.verdict)(piece));
             return true;
         }
-        rtu(piece) && {
+        is_right(piece) && {
             // Unless there is one inside, the check counts more than the length.
             let inner = self.splitter.rtu_lengths(piece).into_iter().flatten();
             let mut inner = inner.filter(|length| *length < piece.len());
             // A check that is right before the telegram's end says little: zeros may follow.
-            let none = !self.is_beginning(piece) && !inner.any(|length| rtu(&piece[..length]));
+            let none = !self.is_beginning(piece) && !inner.any(|length| is_right(&piece[..length]));
             if none {
                 self.add(index, piece, from, &modbus_rtu::PROTOCOL, Verdict::Right);
             }
@@ -452,19 +444,7 @@ impl Traffic {
         if !can_split(main) {
             return false;
         }
-        let mut right = 0;
-        let mut at = 0;
-        let mut in_step = true;
-        while at < piece.len() {
-            let place = Place { bytes: &piece[at..], last: true, in_step, waiting: None };
-            match self.splitter.begins(main, place) {
-                Begins::Telegram(length) => {
-                    (right, at, in_step) = (right + length, at + length, true);
-                }
-                _ => (at, in_step) = (at + 1, false),
-            }
-        }
-        if right * 2 <= piece.len() {
+        if self.splitter.covered(main, piece) * 2 <= piece.len() {
             return false;
         }
         (self.lanes[index].in_step, self.lanes[index].barren) = (true, 0);
@@ -520,7 +500,7 @@ impl Traffic {
                         self.unframed(index, &bytes[garbage..at], from + garbage, kept + garbage);
                     }
                     let telegram = &bytes[at..at + length];
-                    let verdict = if std::ptr::eq(main, &raw const modbus_rtu::PROTOCOL) {
+                    let verdict = if main.is(&modbus_rtu::PROTOCOL) {
                         Verdict::Right
                     } else {
                         (main.verdict)(telegram)
@@ -555,10 +535,9 @@ impl Traffic {
 
     /// Bytes of a stream without a right telegram: a damaged one, if they begin or end like one.
     fn unframed(&mut self, index: usize, bytes: &[u8], from: usize, kept: usize) {
-        let rtu = std::ptr::eq(self.main(index), &raw const modbus_rtu::PROTOCOL);
-        let long = (modbus_rtu::RTU.shortest()..=modbus_rtu::RTU.longest()).contains(&bytes.len());
+        let rtu = self.main(index).is(&modbus_rtu::PROTOCOL);
         let port = usize::from(self.lanes[index].row(from).port);
-        let like = rtu && long && {
+        let like = rtu && has_length(bytes) && {
             let (unit, function) = (bytes[0], bytes[1] & !EXCEPTION);
             let awaited = self.waiting[port].is_some_and(|it| (it.unit, it.function) == (unit, function));
             let seen =
@@ -640,7 +619,7 @@ impl Traffic {
     /// Unit, function, and what its length says; and whether it is now waited for a response.
     #[inline]
     fn describe(&mut self, entry: &mut Entry, bytes: &[u8], protocol: &'static Protocol) {
-        let serial = std::ptr::eq(protocol, &raw const modbus_rtu::PROTOCOL);
+        let serial = protocol.is(&modbus_rtu::PROTOCOL);
         let pdu = if serial {
             entry.unit = bytes.first().copied();
             bytes.get(1..bytes.len().saturating_sub(2).max(1)).unwrap_or_default()
@@ -729,7 +708,17 @@ fn keep(data: &mut Vec<u8>, bytes: &[u8]) -> usize {
     kept
 }
 
+/// Whether an RTU frame can have so many bytes.
+fn has_length(bytes: &[u8]) -> bool {
+    (modbus_rtu::RTU.shortest()..=modbus_rtu::RTU.longest()).contains(&bytes.len())
+}
+
+/// Whether the check of an RTU frame is right.
+fn is_right(bytes: &[u8]) -> bool {
+    has_length(bytes) && crc_residue(bytes) == 0
+}
+
 fn number(protocol: &'static Protocol) -> u8 {
     // The usual one is the first.
-    PROTOCOLS.iter().position(|known| std::ptr::eq(*known, protocol)).unwrap_or_default() as u8
+    PROTOCOLS.iter().position(|known| known.is(protocol)).unwrap_or_default() as u8
 }

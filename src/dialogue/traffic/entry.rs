@@ -52,33 +52,6 @@ pub enum Role {
     Discarded,
 }
 
-impl Role {
-    pub const ALL: [Self; 8] = [
-        Self::Plain,
-        Self::Echo,
-        Self::Retry,
-        Self::Copy,
-        Self::Broadcast,
-        Self::Late,
-        Self::Unasked,
-        Self::Discarded,
-    ];
-
-    /// The stable word of exports.
-    pub const fn key(self) -> &'static str {
-        match self {
-            Self::Plain => "plain",
-            Self::Echo => "echo",
-            Self::Retry => "retry",
-            Self::Copy => "copy",
-            Self::Broadcast => "broadcast",
-            Self::Late => "late",
-            Self::Unasked => "unasked",
-            Self::Discarded => "discarded",
-        }
-    }
-}
-
 /// What the log says of who speaks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Hint {

@@ -11,7 +11,6 @@ use crate::frame::Verdict;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Statistics {
     pub telegrams: usize,
-    pub requests: usize,
     pub pairs: usize,
     pub unanswered: usize,
     pub retries: usize,
@@ -45,7 +44,6 @@ pub struct Dialog {
     pub retries: usize,
     pub exceptions: usize,
     pub check_failed: usize,
-    pub unasked: usize,
     /// Microseconds from request to response.
     pub median: Option<u32>,
     pub worst: Option<u32>,
@@ -89,7 +87,6 @@ pub fn statistics(traffic: &Traffic) -> Statistics {
         all.telegrams += 1;
         all.check_failed += usize::from(entry.verdict == Verdict::Wrong);
         all.unchecked += usize::from(entry.verdict == Verdict::Unchecked);
-        all.requests += usize::from(entry.asks());
         all.unanswered += usize::from(entry.unanswered());
         all.exceptions += usize::from(entry.refuses());
         all.pairs += usize::from(entry.direction == Direction::Response && entry.partner().is_some());
@@ -147,7 +144,6 @@ fn count(gathered: &mut Gathered, entry: &Entry, entries: &[Entry]) {
     dialog.retries += usize::from(entry.role == Role::Retry);
     dialog.exceptions += usize::from(entry.refuses());
     dialog.check_failed += usize::from(entry.verdict == Verdict::Wrong);
-    dialog.unasked += usize::from(entry.role == Role::Unasked);
     if entry.unanswered() {
         gathered.silent.extend(entry.time());
     }

@@ -1,5 +1,7 @@
 //! Texts that are not UTF-8.
 
+use std::borrow::Cow;
+
 /// How a text file's characters are coded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Encoding {
@@ -36,19 +38,27 @@ pub fn encoding(beginning: &[u8]) -> Encoding {
     if odd_controls * 50 > looked.len() { Encoding::Binary } else { Encoding::Bytes }
 }
 
-/// A text in UTF-16 as UTF-8; halves of characters become �.
-pub fn to_utf8(text: &[u8], encoding: Encoding) -> Vec<u8> {
-    let unit = |pair: &[u8]| match encoding {
-        Encoding::Utf16BigEndian => u16::from_be_bytes([pair[0], pair[1]]),
-        _ => u16::from_le_bytes([pair[0], pair[1]]),
-    };
-    let units = text.chunks_exact(2).map(unit).skip_while(|unit| *unit == 0xFEFF);
-    let mut utf8 = Vec::with_capacity(text.len() / 2);
-    for c in char::decode_utf16(units) {
-        let c = c.unwrap_or(char::REPLACEMENT_CHARACTER);
-        utf8.extend_from_slice(c.encode_utf8(&mut [0; 4]).as_bytes());
+impl Encoding {
+    pub const fn is_utf16(self) -> bool {
+        matches!(self, Self::Utf16LittleEndian | Self::Utf16BigEndian)
     }
-    utf8
+
+    /// The text as bytes of which each digit is one: UTF-16 as UTF-8, with � for halves of characters.
+    pub fn text(self, bytes: &[u8]) -> Cow<'_, [u8]> {
+        let unit: fn([u8; 2]) -> u16 = match self {
+            Self::Utf16LittleEndian => u16::from_le_bytes,
+            Self::Utf16BigEndian => u16::from_be_bytes,
+            Self::Bytes | Self::Binary => return Cow::Borrowed(bytes),
+        };
+        let (pairs, _) = bytes.as_chunks();
+        let units = pairs.iter().map(|pair| unit(*pair)).skip_while(|unit| *unit == 0xFEFF);
+        let mut utf8 = Vec::with_capacity(bytes.len() / 2);
+        for c in char::decode_utf16(units) {
+            let c = c.unwrap_or(char::REPLACEMENT_CHARACTER);
+            utf8.extend_from_slice(c.encode_utf8(&mut [0; 4]).as_bytes());
+        }
+        Cow::Owned(utf8)
+    }
 }
 
 #[cfg(test)]
@@ -69,7 +79,7 @@ mod tests {
             let found = encoding(&bytes);
             let expected = if big { Encoding::Utf16BigEndian } else { Encoding::Utf16LittleEndian };
             assert_eq!(found, expected, "{text}");
-            assert_eq!(to_utf8(&bytes, found), text.trim_start_matches('\u{FEFF}').as_bytes());
+            assert_eq!(found.text(&bytes), text.trim_start_matches('\u{FEFF}').as_bytes());
         }
     }
 }

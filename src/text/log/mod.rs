@@ -15,7 +15,7 @@ mod marks;
 mod time;
 mod words;
 
-pub use encoding::{Encoding, encoding, to_utf8};
+pub use encoding::{Encoding, encoding};
 pub use layouts::{EXPORTS, Export, LAYOUTS, Layout, export};
 pub use line::Numbers;
 pub use marks::{Marks, Place};

@@ -1,6 +1,6 @@
 use super::{Entry, Log, Role, Source};
 use crate::field::Direction;
-use crate::frame::Verdict;
+use crate::frame::{Speaker, Verdict};
 
 /// Which telegrams of a log are to be seen. Whatever is `None` lets all through.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -161,17 +161,12 @@ impl Log {
             Direction::Request => entry,
             Direction::Response => &self.entries()[entry.partner()?],
         };
-        let bytes = self.bytes(request);
-        let at = match request.protocol().key {
-            "modbus-rtu" | "modbus-ascii" => 2,
-            "modbus-tcp" => 8,
-            "modbus-pdu" => 1,
-            _ => return None,
-        };
-        let number = |at: usize| bytes.get(at..at + 2).map(|pair| u16::from_be_bytes([pair[0], pair[1]]));
+        let Speaker::Pdu(inside) = request.protocol().speaker else { return None };
+        let (pdu, _) = inside(self.bytes(request));
+        let number = |at: usize| pdu.get(at..at + 2).map(|pair| u16::from_be_bytes([pair[0], pair[1]]));
         match request.plain_function() {
-            5 | 6 | 22 => Some((number(at)?, 1)),
-            1..=4 | 15 | 16 | 23 | 100 | 101 => Some((number(at)?, number(at + 2)?)),
+            5 | 6 | 22 => Some((number(1)?, 1)),
+            1..=4 | 15 | 16 | 23 | 100 | 101 => Some((number(1)?, number(3)?)),
             _ => None,
         }
     }

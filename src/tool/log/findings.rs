@@ -56,11 +56,7 @@ impl Log {
         let sample: Vec<usize> = wrong.iter().copied().step_by(wrong.len().div_ceil(SAMPLE).max(1)).collect();
         let mut causes: BTreeMap<&'static str, (Cause, Vec<u32>)> = BTreeMap::new();
         for index in &sample {
-            let partner = self.entries()[*index].partner();
-            let mut read: Vec<usize> = partner.into_iter().chain([*index]).collect();
-            read.sort_unstable();
-            let report = self.report(source, &read);
-            let place = read.iter().position(|other| other == index).unwrap_or_default();
+            let (report, place) = self.report_of(source, *index);
             if let Some(best) = report.explanations(place).into_iter().next() {
                 let cause = best.hypothesis.cause;
                 causes.entry(cause.key()).or_insert((cause, Vec::new())).1.push(*index as u32);
@@ -109,25 +105,20 @@ impl Log {
     /// Units that never answer.
     fn of_silence(&self) -> Vec<Finding> {
         const FEWEST: usize = 5;
-        let mut units: BTreeMap<(u16, Option<u8>), (usize, usize)> = BTreeMap::new();
-        for dialog in &self.statistics().dialogs {
-            let (requests, answered) = units.entry((dialog.port, dialog.unit)).or_default();
-            *requests += dialog.requests;
-            *answered += dialog.answered;
-        }
-        let silent =
-            units.into_iter().filter(|(_, (requests, answered))| *requests >= FEWEST && *answered == 0);
+        let silent = self.units().into_iter().filter(|unit| unit.requests >= FEWEST && unit.answered == 0);
         silent
-            .filter_map(|((port, unit), (requests, _))| {
-                let number = unit?;
+            .filter_map(|dialog| {
+                let number = dialog.unit?;
                 Some(Finding {
                     code: "unit-silent",
                     text: message!(
                         "Unit {unit} answered none of {n}: it is off, not connected, or has another address, baud rate or parity",
                         unit = number,
-                        n = many(requests, "request")
+                        n = many(dialog.requests, "request")
                     ),
-                    evidence: self.indices(|entry| entry.port == port && entry.unit == unit && entry.unanswered()),
+                    evidence: self.indices(|entry| {
+                        (entry.port, entry.unit) == (dialog.port, dialog.unit) && entry.unanswered()
+                    }),
                 })
             })
             .collect()
@@ -203,9 +194,7 @@ impl Log {
             evidence: hasty.into_iter().take(EVIDENCE).collect(),
         })
     }
-}
 
-impl Log {
     /// Pauses within telegrams, where the log has times for their parts.
     fn of_pauses(&self) -> Option<Finding> {
         const FEWEST: usize = 3;

@@ -129,11 +129,10 @@ pub(super) fn tell(beginning: &[u8], reading: &Reading) -> Result<(Format, Encod
     if let Some((_, name, instead)) = foreign.filter(|_| reading.input == Input::Auto) {
         return Err(Refusal::Foreign { name, instead });
     }
-    let text = match encoding {
-        Encoding::Binary if reading.input == Input::Auto => return Ok((Format::Stream, encoding)),
-        Encoding::Utf16LittleEndian | Encoding::Utf16BigEndian => log::to_utf8(beginning, encoding),
-        Encoding::Binary | Encoding::Bytes => beginning.to_vec(),
-    };
+    if encoding == Encoding::Binary && reading.input == Input::Auto {
+        return Ok((Format::Stream, encoding));
+    }
+    let text = encoding.text(beginning);
     if let Some(export) = log::export(&text) {
         return Err(Refusal::NoBytes { name: export.name, instead: export.instead });
     }

@@ -22,8 +22,8 @@ use super::Options;
 use super::decode::{Report, decode};
 use crate::dialogue::traffic::{Chunk, Hint, Traffic, statistics};
 use crate::dialogue::{self, Candidate, Choice};
-use crate::frame::split::{Begins, Splitter, can_split};
-use crate::frame::{PROTOCOLS, Protocol, Settings, Verdict, modbus_ascii, modbus_pdu, split};
+use crate::frame::split::{Splitter, can_split};
+use crate::frame::{PROTOCOLS, Protocol, Settings, Verdict, modbus_ascii, modbus_pdu};
 use crate::message;
 use crate::text::log::{self, Event, Form, Reader, Sender};
 
@@ -54,6 +54,11 @@ impl Input {
     /// The inputs with their stable words.
     pub const KEYS: [(&'static str, Self); 4] =
         [("auto", Self::Auto), ("text", Self::Text), ("binary", Self::Binary), ("pcap", Self::Capture)];
+
+    /// The input with this key.
+    pub fn of(key: &str) -> Option<Self> {
+        Self::KEYS.into_iter().find(|(word, _)| *word == key).map(|(_, input)| input)
+    }
 }
 
 /// Where a log's lines can be read again.
@@ -153,12 +158,7 @@ impl Log {
             return Err(Refusal::TooLarge { size, most: LARGEST });
         }
         let (format, encoding) = format::tell(beginning, reading)?;
-        let text = match encoding {
-            log::Encoding::Utf16LittleEndian | log::Encoding::Utf16BigEndian => {
-                log::to_utf8(beginning, encoding)
-            }
-            _ => beginning.to_vec(),
-        };
+        let text = encoding.text(beginning);
         let numbers = reading.numbers.or(match format {
             Format::Text { numbers, .. } => Some(numbers),
             _ => None,
@@ -170,9 +170,7 @@ impl Log {
         let mut traffic = Traffic::new(choice.protocol, &options.settings.frame);
         let reader = || Box::new(Reader::new(form.clone()));
         let input = match format {
-            Format::Text { .. }
-                if matches!(encoding, log::Encoding::Utf16BigEndian | log::Encoding::Utf16LittleEndian) =>
-            {
+            Format::Text { .. } if encoding.is_utf16() => {
                 Way::Utf16 { reader: reader(), encoding, odd: Vec::new() }
             }
             Format::Text { .. } => Way::Text(reader()),
@@ -224,7 +222,8 @@ impl Log {
             Way::Utf16 { reader, encoding, odd } => {
                 odd.extend_from_slice(part);
                 let rest = odd.split_off(odd.len() & !1);
-                let text = log::to_utf8(&std::mem::replace(odd, rest), *encoding);
+                let whole = std::mem::replace(odd, rest);
+                let text = encoding.text(&whole);
                 reader.push(&text, &mut take);
                 transcoded.get_or_insert_default().extend_from_slice(&text);
             }
@@ -442,13 +441,11 @@ fn choose(format: &Format, text: &[u8], form: &Form, options: &Options) -> Choic
         .map(|(bytes, colon)| Candidate { bytes, written_as: colon.then_some(&modbus_ascii::PROTOCOL) })
         .collect();
     let choices = dialogue::protocols(&candidates, settings);
-    let count = |choice: &Choice| {
-        choices.iter().filter(|other| std::ptr::eq(other.protocol, choice.protocol)).count()
-    };
+    let count = |choice: &Choice| choices.iter().filter(|other| other.protocol.is(choice.protocol)).count();
     let most =
         choices.iter().enumerate().max_by_key(|(index, choice)| (count(choice), std::cmp::Reverse(*index)));
     match most {
-        Some((_, choice)) if std::ptr::eq(choice.protocol, &modbus_pdu::PROTOCOL) => {
+        Some((_, choice)) if choice.protocol.is(&modbus_pdu::PROTOCOL) => {
             // Perhaps each piece is a part of a telegram only.
             let joined = pieces.iter().flat_map(|(bytes, _)| bytes).copied().collect::<Vec<u8>>();
             let (whole, covered) = fullest(&[&joined], settings);
@@ -468,17 +465,14 @@ fn choose(format: &Format, text: &[u8], form: &Form, options: &Options) -> Choic
 fn pieces(text: &[u8], form: &Form) -> Vec<(Vec<u8>, bool)> {
     const ENOUGH: usize = 300;
     let mut pieces: Vec<(Vec<u8>, bool)> = Vec::new();
-    let mut count = 0;
     let mut reader = Reader::new(form.clone());
     let mut take = |event: Event<'_>| {
         if let Event::Piece(piece) = event {
+            let full = pieces.len() == ENOUGH;
             match pieces.last_mut() {
                 Some((bytes, _)) if piece.joins => bytes.extend_from_slice(piece.bytes),
-                Some(_) if count == ENOUGH => {}
-                _ => {
-                    count += 1;
-                    pieces.push((piece.bytes.to_vec(), piece.colon));
-                }
+                _ if full => {}
+                _ => pieces.push((piece.bytes.to_vec(), piece.colon)),
             }
         }
     };
@@ -497,7 +491,7 @@ fn pieces(text: &[u8], form: &Form) -> Vec<(Vec<u8>, bool)> {
 fn fullest(streams: &[&[u8]], settings: &Settings) -> (Choice, usize) {
     let splitter = Splitter::new(settings.dialect);
     let covered = |protocol: &'static Protocol| -> usize {
-        streams.iter().map(|bytes| covered(&splitter, protocol, &bytes[..bytes.len().min(1 << 15)])).sum()
+        streams.iter().map(|bytes| splitter.covered(protocol, &bytes[..bytes.len().min(1 << 15)])).sum()
     };
     let splitting = PROTOCOLS.iter().copied().filter(|protocol| can_split(protocol));
     let (covered, protocol) = splitting
@@ -506,17 +500,4 @@ fn fullest(streams: &[&[u8]], settings: &Settings) -> (Choice, usize) {
         .unwrap_or((0, PROTOCOLS[0]));
     let reason = message!("most of its bytes are telegrams of this protocol");
     (Choice { protocol, reason, others: Vec::new() }, covered)
-}
-
-/// How many of `bytes` are telegrams of `protocol`.
-fn covered(splitter: &Splitter, protocol: &'static Protocol, bytes: &[u8]) -> usize {
-    let (mut at, mut covered, mut in_step) = (0, 0, true);
-    while at < bytes.len() {
-        let place = split::Place { bytes: &bytes[at..], last: true, in_step, waiting: None };
-        match splitter.begins(protocol, place) {
-            Begins::Telegram(length) => (at, covered, in_step) = (at + length, covered + length, true),
-            _ => (at, in_step) = (at + 1, false),
-        }
-    }
-    covered
 }

@@ -20,7 +20,6 @@ pub struct Timeline {
 pub struct Bucket {
     pub telegrams: u32,
     pub errors: u32,
-    pub unanswered: u32,
     /// Microseconds from request to response, on average.
     pub latency: Option<u32>,
     pub worst: Option<u32>,
@@ -52,7 +51,6 @@ impl Log {
             let Some((bucket, sum, answers)) = buckets.get_mut(place) else { return };
             bucket.telegrams += u32::from(entry.counts());
             bucket.errors += u32::from(is_error(entry));
-            bucket.unanswered += u32::from(entry.unanswered());
             if entry.direction == Direction::Response
                 && let Some(latency) = self.latency(entry)
             {
@@ -102,11 +100,8 @@ impl Log {
 
     /// The value of a register in telegram `index`.
     fn value(&self, source: &dyn Source, index: usize, address: u16) -> Option<f64> {
-        let entry = &self.entries()[index];
-        let request = entry.partner().filter(|_| entry.direction == Direction::Response);
-        let indices: Vec<usize> = request.into_iter().chain([index]).collect();
-        let report = self.report(source, &indices);
-        let detail = report.detail(indices.len() - 1)?;
+        let (report, place) = self.report_of(source, index);
+        let detail = report.detail(place)?;
         let mut blocks = detail.device.blocks.iter();
         let known =
             blocks.find(|block| (block.from..=block.to).contains(&address)).and_then(|block| block.value());

@@ -4,8 +4,7 @@ use super::{Entry, Format, Log, Role, Source, Way, time_text};
 use crate::dialogue::traffic::latency;
 use crate::dialogue::{Certainty, Choice, Guess};
 use crate::field::{Direction, Span};
-use crate::frame::Verdict;
-use crate::frame::{Speaker, modbus_ascii};
+use crate::frame::{Speaker, Verdict, modbus_ascii};
 use crate::message;
 use crate::text::Line;
 use crate::text::log::{Event, Reader};
@@ -40,9 +39,25 @@ impl Log {
         report
     }
 
+    /// A report of telegram `index` with what tells more of it, and its place in that.
+    pub fn report_of(&self, source: &dyn Source, index: usize) -> (Report, usize) {
+        let context = self.context(index);
+        let place = context.binary_search(&index).unwrap_or_default();
+        (self.report(source, &context), place)
+    }
+
+    /// The telegrams `indices` and those that answer them or that they answer, in the log's order.
+    pub fn with_partners(&self, indices: impl Iterator<Item = usize>) -> Vec<usize> {
+        let partner = |index: usize| self.entries()[index].partner();
+        let mut all: Vec<usize> = indices.flat_map(|index| [Some(index), partner(index)]).flatten().collect();
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+
     /// What tells more of telegram `index`, in order, itself included: its partner, and for jobs of a
     /// parameter channel what was asked before.
-    pub fn context(&self, index: usize) -> Vec<usize> {
+    fn context(&self, index: usize) -> Vec<usize> {
         /// A job takes a few cycles.
         const CYCLES: usize = 30;
         let Some(entry) = self.entries().get(index) else { return Vec::new() };
@@ -140,7 +155,7 @@ impl Log {
                 message!("its length, its place in the log and what the log says of it tell"),
             ),
         };
-        let own = std::ptr::eq(protocol, self.choice.protocol);
+        let own = protocol.is(self.choice.protocol);
         let reason_of_protocol =
             if own { self.choice.reason.clone() } else { message!("its own bytes prove it") };
         Telegram {
@@ -186,7 +201,7 @@ impl Log {
             (Some(first), Some(last)) => Span::new(first.from, last.to),
             _ => Span::new(entry.offset as usize, entry.offset as usize),
         };
-        let colon = std::ptr::eq(entry.protocol(), &raw const modbus_ascii::PROTOCOL);
+        let colon = entry.protocol().is(&modbus_ascii::PROTOCOL);
         Line { number, span, places, bytes, colon, ..Line::default() }
     }
 

@@ -70,7 +70,7 @@ impl Log {
     }
 
     /// The numbers of each unit, all functions together.
-    fn units(&self) -> Vec<Dialog> {
+    pub(super) fn units(&self) -> Vec<Dialog> {
         let mut units: Vec<Dialog> = Vec::new();
         for dialog in &self.statistics().dialogs {
             let same = |unit: &&mut Dialog| (unit.port, unit.unit) == (dialog.port, dialog.unit);
