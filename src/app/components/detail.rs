@@ -277,7 +277,8 @@ fn link(shown: &Shown, decoded: &Decoded) -> String {
     fragment(&Link::to(hex(shown.bytes()), options))
 }
 
-fn problems(shown: &Shown) -> Markup {
+/// What is wrong with a telegram, each with a button to its bytes.
+pub fn problems(shown: &Shown) -> Markup {
     let problems = shown.detail.problems();
     html! {
         @if !problems.is_empty() {

@@ -217,7 +217,8 @@ fn utf16_offset(text: &str, at: usize) -> u32 {
     text.get(..at).unwrap_or(text).encode_utf16().count() as u32
 }
 
-fn byte_offset(text: &str, at: usize) -> usize {
+/// The byte of the text at which the browser counts `at` units.
+pub fn byte_offset(text: &str, at: usize) -> usize {
     let mut units = 0;
     let reached = text.char_indices().find(|(_, c)| {
         let reached = units >= at;

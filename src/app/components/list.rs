@@ -57,6 +57,13 @@ pub fn hear(state: State, kind: &str, event: &Event) {
 
 fn go(state: State, event: &Event) {
     let (at, of) = state.decoded.with_untracked(|decoded| (decoded.index(), decoded.report.telegrams.len()));
+    if let Some(to) = aim(event, at, of) {
+        state.select(to);
+    }
+}
+
+/// The row that a key leads to from row `at` of `of`.
+pub fn aim(event: &Event, at: usize, of: usize) -> Option<usize> {
     let last = of.saturating_sub(1);
     let to = match browser::key(event).as_str() {
         "ArrowDown" => at + 1,
@@ -65,10 +72,10 @@ fn go(state: State, event: &Event) {
         "PageUp" => at.saturating_sub(SIGHT),
         "Home" => 0,
         "End" => last,
-        _ => return,
+        _ => return None,
     };
     event.prevent_default();
-    state.select(to.min(last));
+    Some(to.min(last))
 }
 
 fn head() -> Markup {
@@ -87,10 +94,15 @@ fn rows(report: &Report, top: usize, current: usize) -> Markup {
     let last = (first + SIGHT + 5).min(total);
     html! {
         // The space above and below belongs to rows that do not exist at the moment.
-        svg.space width="1" height=(first.min(last) * ROW) aria-hidden="true" {}
+        (space(first.min(last) * ROW))
         @for index in first..last { (row(report, index, index == current)) }
-        svg.space width="1" height=((total - last) * ROW) aria-hidden="true" {}
+        (space((total - last) * ROW))
     }
+}
+
+/// So many pixels of nothing.
+pub fn space(height: usize) -> Markup {
+    html! { svg.space width="1" height=(height) aria-hidden="true" {} }
 }
 
 fn row(report: &Report, index: usize, selected: bool) -> Markup {

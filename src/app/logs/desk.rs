@@ -23,7 +23,7 @@ thread_local! {
 }
 
 /// The height of a row in pixels; the stylesheet has the same.
-pub const ROW: usize = 40;
+const ROW: usize = 40;
 
 /// Browsers draw no element higher than some million pixels: longer lists move in larger steps.
 const HIGHEST: usize = 8_000_000;
@@ -47,8 +47,6 @@ pub struct Desk {
     pub series: RwSignal<String>,
     pub telegram: RwSignal<String>,
     pub unread: RwSignal<String>,
-    /// How many lines have no bytes.
-    pub without_bytes: RwSignal<usize>,
     /// The rows that are drawn, and the place of the first one.
     pub rows: RwSignal<(usize, String)>,
     /// How many telegrams the list has, of how many.
@@ -98,7 +96,6 @@ impl Desk {
             series: RwSignal::default(),
             telegram: RwSignal::default(),
             unread: RwSignal::default(),
-            without_bytes: RwSignal::default(),
             rows: RwSignal::default(),
             total: RwSignal::default(),
             place: RwSignal::default(),
@@ -152,13 +149,9 @@ impl Desk {
 
     /// How the file is to be read, and how the devices are set up.
     fn how_text(&self) -> String {
-        let mut pairs: Vec<(String, String)> = self
-            .how
-            .with_untracked(|how| how.iter().map(|(key, value)| (key.clone(), value.clone())).collect());
-        if let Some(kept) = browser::remembered(SETTINGS) {
-            pairs.push(("settings".to_owned(), kept));
-        }
-        pairs_text(&pairs)
+        let settings = browser::remembered(SETTINGS);
+        self.how.with_untracked(|pairs| pairs_text(pairs))
+            + &pairs_text(settings.iter().map(|kept| ("settings", kept)))
     }
 
     /// A person says how the file is to be read.
@@ -182,10 +175,20 @@ impl Desk {
             "" => drop(filter.remove(key)),
             value => drop(filter.insert(key.to_owned(), value.to_owned())),
         });
-        let pairs: Vec<(String, String)> = self.filter.with_untracked(|filter| {
-            filter.iter().map(|(key, value)| (key.clone(), value.clone())).collect()
-        });
-        self.send(Mail::new("filter").with(pairs_text(&pairs).as_str()));
+        self.send(Mail::new("filter").with(self.filter.with_untracked(|pairs| pairs_text(pairs)).as_str()));
+    }
+
+    /// Everything is to be seen.
+    pub fn show_all(&self) {
+        self.filter.update(BTreeMap::clear);
+        self.filter_by("text", "");
+    }
+
+    /// Reads the file without what was marked in a line.
+    pub fn forget_marks(&self) {
+        let choices = |key: &str| matches!(key, "protocol" | "device" | "input" | "numbers");
+        self.how.update(|how| how.retain(|key, _| choices(key)));
+        self.read();
     }
 
     /// Shows the telegram at a place of the list.
@@ -200,9 +203,8 @@ impl Desk {
 
     /// Goes to the next error.
     pub fn step(&self, forwards: bool) {
-        let from = self.place.get_untracked().map_or(-1.0, |place| place as f64);
-        let from = if from < 0.0 && forwards { -1.0 } else { from };
-        self.send(Mail::new("step").with(from).with(if forwards { 1.0 } else { -1.0 }));
+        let from = self.place.get_untracked().unwrap_or(0);
+        self.send(Mail::new("step").with(from as f64).with(if forwards { 1.0 } else { -1.0 }));
     }
 
     /// Notes something on the telegram that is shown.
@@ -215,19 +217,18 @@ impl Desk {
     }
 
     pub fn export(&self, kind: &str) {
-        let pairs: Vec<(String, String)> = self.notes.with_untracked(|notes| {
-            notes.iter().map(|(number, text)| (number.to_string(), text.clone())).collect()
-        });
-        self.send(Mail::new("export").with(kind).with(pairs_text(&pairs).as_str()));
+        let notes = self.notes.with_untracked(|pairs| pairs_text(pairs));
+        self.send(Mail::new("export").with(kind).with(notes.as_str()));
     }
 
     pub fn ask(&self, kind: &str) {
         self.send(Mail::new(kind));
     }
 
-    pub fn ask_number(&self, kind: &str, number: usize) {
+    /// Shows the telegrams that a finding is about.
+    pub fn show_finding(&self, number: usize) {
         self.filter.update(|filter| drop(filter.insert("finding".to_owned(), number.to_string())));
-        self.send(Mail::new(kind).with(number as f64));
+        self.send(Mail::new("finding").with(number as f64));
     }
 
     pub fn draw_series(&self, unit: &str, register: &str) {
@@ -248,9 +249,9 @@ impl Desk {
         self.scrolled.set(top);
         let (count, _) = self.total.get_untracked();
         let first = self.first_in_sight(top, count);
-        let (drawn, _) = self.rows.with_untracked(|(first, rows)| (*first, rows.len()));
+        let drawn = self.rows.with_untracked(|(first, _)| *first);
         let near = first >= drawn + 2 && first + 16 < drawn + ASKED;
-        if !near || drawn > first {
+        if !near {
             self.ask_rows(first);
         }
     }
@@ -319,7 +320,6 @@ impl Desk {
                 self.story.set(mail.text(1));
                 self.table.set(mail.text(2));
                 self.lists.set(mail.text(3));
-                self.without_bytes.set(mail.index(4));
                 self.stage.set(Stage::Ready);
             }
             "filtered" => {

@@ -1,3 +1,5 @@
+use std::fmt::Display;
+
 use wasm_bindgen::{JsCast, JsValue};
 use web_sys::MessageEvent;
 use web_sys::js_sys::Array;
@@ -24,7 +26,7 @@ use web_sys::js_sys::Array;
 /// | `hello` | |
 /// | `progress` | bytes done, bytes in all, telegrams |
 /// | `refused` | why |
-/// | `ready` | markup of the summary, of the filter's lists, and how many bytes it takes |
+/// | `ready` | markup of the story, the table, and the filter's lists |
 /// | `findings` | markup |
 /// | `filtered` | how many, of how many, markup of the timeline |
 /// | `rows` | the first place, markup |
@@ -79,8 +81,8 @@ impl Mail {
 }
 
 /// Pairs as a text, a line each: what the two tell each other of how a log is to be read.
-pub fn pairs_text(pairs: &[(String, String)]) -> String {
-    let lines = pairs.iter().map(|(key, value)| format!("{key}={}\n", value.replace('\n', " ")));
+pub fn pairs_text<'a>(pairs: impl IntoIterator<Item = (impl Display, &'a String)>) -> String {
+    let lines = pairs.into_iter().map(|(key, value)| format!("{key}={}\n", value.replace('\n', " ")));
     lines.collect()
 }
 
@@ -88,4 +90,9 @@ pub fn pairs_text(pairs: &[(String, String)]) -> String {
 pub fn pairs_of(text: &str) -> Vec<(String, String)> {
     let pairs = text.lines().filter_map(|line| line.split_once('='));
     pairs.map(|(key, value)| (key.to_owned(), value.to_owned())).collect()
+}
+
+/// The value with this key; empty if there is none.
+pub fn value_of<'a>(pairs: &'a [(String, String)], key: &str) -> &'a str {
+    pairs.iter().find(|(other, _)| other == key).map_or("", |(_, value)| value)
 }

@@ -3,9 +3,9 @@
 use maud::{Markup, html};
 
 use crate::app::address::fragment;
-use crate::app::components::{check, fields, strip};
+use crate::app::components::{check, detail, fields, strip};
 use crate::app::state::Shown;
-use crate::field::{Direction, Message, Severity, Span, hex};
+use crate::field::{Direction, Message, Span, hex};
 use crate::tool::link::Link;
 use crate::tool::log::{Entry, Log, Role, Source};
 
@@ -41,7 +41,7 @@ pub fn telegram(log: &Log, source: &dyn Source, index: usize) -> Markup {
         h2 { (shown.detail.meaning().sentence()) "." }
         @if let Some(said) = about(entry) { p.kind { (said) "." } }
         (lines(log, source, entry, &shown.telegram.line.places))
-        (problems(&shown))
+        (detail::problems(&shown))
         div.bar {
             p.count { (Message::bytes(entry.length.into())) }
             div.actions {
@@ -109,21 +109,6 @@ fn lines(log: &Log, source: &dyn Source, entry: &Entry, places: &[Span]) -> Mark
         pre.source tabindex="0" aria-label="In the log" {
             @for (piece, byte) in pieces {
                 @if byte { mark { (piece) } } @else { (piece) }
-            }
-        }
-    }
-}
-
-fn problems(shown: &Shown) -> Markup {
-    let problems = shown.detail.problems();
-    html! {
-        @if !problems.is_empty() {
-            ul.problems {
-                @for problem in problems {
-                    li class=(if problem.severity == Severity::Error { "error" } else { "warning" }) {
-                        button type="button" data-span=(crate::app::browser::span_text(problem.span)) { span { (problem.message.sentence()) "." } }
-                    }
-                }
             }
         }
     }

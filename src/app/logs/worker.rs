@@ -8,7 +8,7 @@ use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::js_sys::{self, Array, Uint8Array};
 use web_sys::{Blob, DedicatedWorkerGlobalScope, FileReaderSync, MessageEvent};
 
-use super::mail::{Mail, pairs_of};
+use super::mail::{Mail, pairs_of, value_of};
 use super::{rows, summary, telegram, timeline};
 use crate::field::{Direction, Span};
 use crate::tool::link::Link;
@@ -170,9 +170,7 @@ impl Opened {
             &Mail::new("ready")
                 .with(summary::story(&self.log, &self.name).into_string())
                 .with(summary::table(&self.log).into_string())
-                .with(summary::lists(&self.log).into_string())
-                .with(self.log.unread().len() as f64)
-                .with(self.log.memory() as f64),
+                .with(summary::lists(&self.log).into_string()),
         );
         self.choose();
         self.find_causes();
@@ -351,8 +349,7 @@ impl Opened {
         let mut report = self.log.report(&self.file, &read);
         for telegram in &mut report.telegrams {
             let number = telegram.number.to_string();
-            let noted = comments.iter().find(|(key, _)| *key == number);
-            telegram.comment = noted.map_or(String::new(), |(_, comment)| comment.clone());
+            telegram.comment = value_of(comments, &number).to_owned();
         }
         let places = chosen.iter().filter_map(|index| read.binary_search(index).ok());
         let one = |place: usize| match kind {
@@ -394,8 +391,7 @@ fn story_text(log: &Log) -> String {
 
 /// How a person says that the file is to be read.
 fn reading(pairs: &[(String, String)]) -> Reading {
-    let value =
-        |key: &str| pairs.iter().find(|(other, _)| other == key).map_or("", |(_, value)| value.as_str());
+    let value = |key: &str| value_of(pairs, key);
     let numbers = match value("numbers") {
         "hex" => Some(Numbers::Hex),
         "decimal" => Some(Numbers::Decimal),
@@ -419,8 +415,7 @@ fn reading(pairs: &[(String, String)]) -> Reading {
 }
 
 fn filter(pairs: &[(String, String)]) -> Filter {
-    let value =
-        |key: &str| pairs.iter().find(|(other, _)| other == key).map_or("", |(_, value)| value.as_str());
+    let value = |key: &str| value_of(pairs, key);
     let range = |key: &str| {
         let (from, to) = value(key).split_once("..")?;
         Some((from.parse::<i64>().ok()?, to.parse::<i64>().ok()?))

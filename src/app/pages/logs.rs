@@ -5,7 +5,7 @@ use maud::html;
 use web_sys::{Element, Event, HtmlInputElement};
 
 use crate::app::browser::{self, DETAIL, DEVICE, FILE, LIST, PROTOCOL};
-use crate::app::components::{Drawn, detail, drawn, header, menu};
+use crate::app::components::{Drawn, detail, drawn, header, input, list, menu};
 use crate::app::logs::desk::{Desk, Stage, now};
 use crate::field::{Span, grouped, many};
 
@@ -79,7 +79,7 @@ fn click(desk: Desk, event: &Event) {
     } else if let Some(place) = number("data-place") {
         desk.select(place);
     } else if let Some(finding) = number("data-finding") {
-        desk.ask_number("finding", finding);
+        desk.show_finding(finding);
     } else if let Some(kind) = browser::attribute(event, "data-export") {
         desk.export(&kind);
         menu::close(event);
@@ -107,12 +107,7 @@ fn click(desk: Desk, event: &Event) {
                 };
                 desk.draw_series(&value("series-unit"), &value("series-register"));
             }
-            "again" => {
-                desk.how.update(|how| {
-                    how.retain(|key, _| matches!(key.as_str(), "protocol" | "device" | "input" | "numbers"))
-                });
-                desk.read();
-            }
+            "again" => desk.forget_marks(),
             "unread" | "sample" => desk.ask(&what),
             _ => {}
         }
@@ -133,8 +128,7 @@ fn all(desk: Desk) {
     for id in ["wanted", "unit", "function", "way", "port", "text"] {
         browser::set_field(id, if id == "wanted" { "all" } else { "" });
     }
-    desk.filter.update(std::collections::BTreeMap::clear);
-    desk.filter_by("text", "");
+    desk.show_all();
 }
 
 /// What is selected in the sample line is a part of it.
@@ -147,16 +141,7 @@ fn mark(desk: Desk, part: &str) {
         return;
     }
     let text = field.value();
-    let byte = |units: u32| {
-        let mut seen = 0;
-        text.char_indices()
-            .find(|(_, c)| {
-                let there = seen >= units;
-                seen += c.len_utf16() as u32;
-                there
-            })
-            .map_or(text.len(), |(at, _)| at)
-    };
+    let byte = |units: u32| input::byte_offset(&text, units as usize);
     desk.mark(part, Span::new(byte(from), byte(to)));
 }
 
@@ -189,28 +174,15 @@ fn key(desk: Desk, event: &Event) {
     if browser::id(event) != LIST {
         return;
     }
-    /// How many rows are in sight, about.
-    const SIGHT: usize = 10;
     let at = desk.place.get_untracked().unwrap_or(0);
-    let last = desk.total.get_untracked().0.saturating_sub(1);
-    let to = match key.as_str() {
-        "ArrowDown" => at + 1,
-        "ArrowUp" => at.saturating_sub(1),
-        "PageDown" => at + SIGHT,
-        "PageUp" => at.saturating_sub(SIGHT),
-        "Home" => 0,
-        "End" => last,
-        _ => return,
-    };
-    event.prevent_default();
-    desk.select(to.min(last));
+    if let Some(to) = list::aim(event, at, desk.total.get_untracked().0) {
+        desk.select(to);
+    }
 }
 
 #[component]
 pub fn Logs(desk: Desk) -> impl IntoView {
-    let ready: Drawn<bool> = Box::new(move || desk.stage.get() != Stage::Ready);
     let nothing: Drawn<bool> = Box::new(move || desk.telegram.with(String::is_empty));
-    let ready_too: Drawn<bool> = Box::new(move || desk.stage.get() != Stage::Ready);
     view! {
         <header::Header here="logs.html" />
         <main id="main" class="panes logs" tabindex="-1">
@@ -225,10 +197,10 @@ pub fn Logs(desk: Desk) -> impl IntoView {
                     <div class="story" inner_html=Box::new(move || desk.story.get()) as Drawn></div>
                     <div class="findings" inner_html=Box::new(move || desk.findings.get()) as Drawn></div>
                     <p id="status" role="status" class="unseen"></p>
-                    <div hidden=ready inner_html=lower().into_string()></div>
+                    <div hidden=unless_ready(desk) inner_html=lower().into_string()></div>
                     <div inner_html=Box::new(move || desk.unread.get()) as Drawn></div>
                 </section>
-                <section class="card" aria-label="Over time" hidden=ready_too>
+                <section class="card" aria-label="Over time" hidden=unless_ready(desk)>
                     <div inner_html=Box::new(move || desk.picture.get()) as Drawn></div>
                     <details class="layout" open=true>
                         <summary>"Units and functions"</summary>
@@ -250,23 +222,27 @@ pub fn Logs(desk: Desk) -> impl IntoView {
     }
 }
 
+/// Whether there is nothing to show yet.
+fn unless_ready(desk: Desk) -> Drawn<bool> {
+    Box::new(move || desk.stage.get() != Stage::Ready)
+}
+
 /// The list of telegrams, with what chooses among them above it.
 #[component]
 fn Telegrams(desk: Desk) -> impl IntoView {
-    let hidden: Drawn<bool> = Box::new(move || desk.stage.get() != Stage::Ready);
     let current: Drawn =
         Box::new(move || desk.place.get().map_or(String::new(), |place| format!("telegram-{place}")));
     let rows: Drawn = Box::new(move || {
         let (above, below) = desk.space();
-        let space =
-            |height: usize| html! { svg.space width="1" height=(height) aria-hidden="true" {} }.into_string();
         // What is chosen now is drawn as such; what is chosen later is marked below.
         let place = desk.place.get_untracked().map(|place| format!("data-place=\"{place}\""));
         let chosen = |rows: &str| match &place {
             Some(place) => rows.replacen(place.as_str(), &format!("{place} aria-selected=\"true\""), 1),
             None => rows.to_owned(),
         };
-        desk.rows.with(|(_, rows)| [space(above), chosen(rows), space(below)].concat())
+        desk.rows.with(|(_, rows)| {
+            [list::space(above).into_string(), chosen(rows), list::space(below).into_string()].concat()
+        })
     });
     // The chosen row is marked by itself: drawing all rows anew would be felt.
     Effect::new(move |_| {
@@ -291,7 +267,7 @@ fn Telegrams(desk: Desk) -> impl IntoView {
         }
     });
     view! {
-        <section class="card telegrams" aria-labelledby="telegrams" hidden=hidden>
+        <section class="card telegrams" aria-labelledby="telegrams" hidden=unless_ready(desk)>
             <div class="settings" inner_html=lists></div>
             <div inner_html=search().into_string()></div>
             <p class="count" inner_html=found></p>
