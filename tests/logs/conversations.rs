@@ -113,6 +113,47 @@ fn echoes_are_told_from_retries_and_from_answers() {
 }
 
 #[test]
+fn connections_are_told_by_their_addresses() {
+    let (one, other) = ("10.0.0.7:49152", "10.0.0.8:49153");
+    let server = "192.168.0.10:502";
+    let mut text = String::new();
+    for _ in 0..10 {
+        for client in [one, other] {
+            writeln!(text, "{client} -> {server} {}", hex(&ask(1))).unwrap();
+        }
+        for client in [other, one] {
+            writeln!(text, "{server} -> {client} {}", hex(&answer(1))).unwrap();
+        }
+    }
+    let log = read(&text);
+    assert_eq!((log.statistics().pairs, log.statistics().retries), (20, 0));
+    for (n, entry) in log.entries().iter().enumerate() {
+        let client = if matches!(n % 4, 0 | 3) { one } else { other };
+        assert_eq!(log.port_name(entry.port), Some(format!("{client} – {server}")));
+    }
+}
+
+#[test]
+fn an_address_that_is_not_repeated_stays() {
+    let mut text = String::new();
+    for unit in [1, 2] {
+        writeln!(text, "TX to 10.0.0.{unit}:502: {}\nRX: {}", hex(&ask(unit)), hex(&answer(unit))).unwrap();
+    }
+    assert_eq!(read(&text).statistics().pairs, 2);
+}
+
+#[test]
+fn names_of_speakers_are_no_connections() {
+    let mut text = String::new();
+    for _ in 0..10 {
+        writeln!(text, "10.0.0.7:49152: {}\n10.0.0.1:502: {}", hex(&ask(1)), hex(&answer(1))).unwrap();
+    }
+    let log = read(&text);
+    assert_eq!(log.statistics().pairs, 10);
+    assert_eq!(log.port_name(log.entries()[3].port), None);
+}
+
+#[test]
 fn lines_and_connections_are_parted() {
     let mut text = String::new();
     for n in 0..10 {

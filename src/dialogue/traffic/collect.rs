@@ -51,6 +51,8 @@ pub struct Traffic {
     /// The time of the last chunk, to notice midnight.
     clock: i64,
     days: i64,
+    /// See [`Chunk::both_ways`].
+    both_ways: bool,
     /// How many more entries fit.
     room: usize,
     /// See [`pauses`](Self::pauses).
@@ -126,6 +128,7 @@ impl Traffic {
             seen: vec![0; 256 * 2],
             clock: NO_TIME,
             days: 0,
+            both_ways: false,
             room: MOST_ENTRIES,
             pauses: Vec::new(),
         }
@@ -135,6 +138,7 @@ impl Traffic {
     pub fn take(&mut self, chunk: Chunk<'_>) -> bool {
         let time = chunk.time.map_or(NO_TIME, |time| self.continuous(time));
         self.data.reserve(chunk.bytes.len());
+        self.both_ways |= chunk.both_ways;
         let way = match (chunk.both_ways, chunk.hint) {
             (true, Hint::Says(Direction::Response)) => 1,
             _ => 0,
@@ -192,6 +196,10 @@ impl Traffic {
     pub fn finish(&mut self) {
         for index in 0..self.lanes.len() {
             self.close(index);
+        }
+        // What a capture says of a connection needs no guess.
+        if !self.both_ways {
+            conversation::join_speakers(&mut self.entries);
         }
         conversation::meet(&mut self.entries, &self.data);
     }

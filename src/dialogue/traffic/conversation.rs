@@ -31,6 +31,30 @@ pub(super) fn meet(entries: &mut [Entry], data: &[u8]) {
     }
 }
 
+/// Where each port has only requests or only responses, their names say who speaks, not on which line: a
+/// log that names the sender of each telegram, or a line whose two directions are tapped. All are one
+/// port then.
+pub(super) fn join_speakers(entries: &mut [Entry]) {
+    let mut sides: Vec<[bool; 2]> = Vec::new();
+    for entry in entries.iter().filter(|entry| entry.role != Role::Discarded) {
+        let port = usize::from(entry.port);
+        if sides.len() <= port {
+            sides.resize(port + 1, [false; 2]);
+        }
+        let [asks, answers] = match (entry.sides, entry.hint) {
+            ([true, true] | [false, false], Hint::Says(Direction::Request) | Hint::Logger) => [true, false],
+            ([true, true] | [false, false], Hint::Says(Direction::Response) | Hint::Other) => [false, true],
+            (sides, _) => sides,
+        };
+        sides[port][0] |= asks;
+        sides[port][1] |= answers;
+    }
+    let of = |side: [bool; 2]| sides.iter().filter(|sides| **sides == side).count();
+    if of([true, true]) == 0 && of([true, false]) > 0 && of([false, true]) > 0 {
+        entries.iter_mut().for_each(|entry| entry.port = 0);
+    }
+}
+
 fn bytes<'a>(entry: &Entry, data: &'a [u8]) -> &'a [u8] {
     let from = entry.at as usize;
     Span::new(from, from + usize::from(entry.length)).of(data)

@@ -66,8 +66,13 @@ pub struct Scan {
     pub words: usize,
     /// Who speaks, by words anywhere in the line.
     pub sender: Option<(Sender, Weight)>,
-    /// `COM8`, `ttyUSB0`: where the line is plugged in.
-    pub port: Option<Span>,
+    /// What tells several lines or connections apart: `COM8`, `ttyUSB0`, or the addresses of both ends,
+    /// the client's first, whoever speaks. Empty where none is said.
+    pub port: Vec<u8>,
+    /// The addresses in the line.
+    ends: [Option<Span>; 2],
+    /// The last word that says who speaks is an arrow, and it points back.
+    arrow: Option<bool>,
     open: Option<Run>,
     /// The words that say who speaks, since the last run: the last strong one and the last weak one.
     strong: Option<Sender>,
@@ -95,7 +100,9 @@ impl Scan {
         self.decimal.clear();
         self.places.clear();
         self.runs.clear();
-        (self.time, self.sender, self.port, self.open) = (None, None, None, None);
+        self.port.clear();
+        (self.time, self.sender, self.open) = (None, None, None);
+        (self.ends, self.arrow) = ([None; 2], None);
         (self.strong, self.weak, self.words, self.words_since) = (None, None, 0, 0);
         self.hex_only = numbers == Some(Numbers::Hex);
         let mut at = from;
@@ -109,6 +116,7 @@ impl Scan {
                     Some((sender, to)) => {
                         self.close();
                         self.say(self.party(sender).unwrap_or(sender), Weight::Strong);
+                        self.arrow = Some(sender == Sender::Other);
                         to
                     }
                     None if c == b'-' && self.is_negative(line, at) => self.negative(line, at),
@@ -199,7 +207,7 @@ impl Scan {
             if mark == b'.'
                 && let Some(to) = address(line, at)
             {
-                self.stranger();
+                self.end_of_connection(line, Span::new(at, to));
                 return to;
             }
             if matches!(mark, b':' | b'-' | b'/' | b'.')
@@ -227,7 +235,8 @@ impl Scan {
                     None => self.stranger(),
                 }
                 if is_port(&line[at..to]) {
-                    self.port = Some(Span::new(at, to));
+                    self.port.clear();
+                    self.port.extend_from_slice(&line[at..to]);
                 }
             }
         }
@@ -434,6 +443,7 @@ impl Scan {
     }
 
     fn say(&mut self, sender: Sender, weight: Weight) {
+        self.arrow = None;
         match weight {
             Weight::Strong => self.strong = Some(sender),
             Weight::Weak => self.weak = Some(sender),
@@ -443,6 +453,36 @@ impl Scan {
         }
         self.words += 1;
         self.words_since = 0;
+    }
+
+    /// The address of an end of a connection: of the one that sends, or behind that, of the other one.
+    fn end_of_connection(&mut self, line: &[u8], place: Span) {
+        self.stranger();
+        let (from, to) = match self.ends {
+            [None, _] => {
+                self.ends[0] = Some(place);
+                return self.port.extend_from_slice(place.of(line));
+            }
+            [Some(from), None] if from.of(line) != place.of(line) => (from, place),
+            _ => return,
+        };
+        self.ends[1] = Some(to);
+        let key = |end: Span| (service(end.of(line)), end.of(line));
+        // A server waits at a known port; a client is given one of the high ones.
+        let (client, server) = if key(from) > key(to) { (from, to) } else { (to, from) };
+        self.port.clear();
+        for part in [client.of(line), " – ".as_bytes(), server.of(line)] {
+            self.port.extend_from_slice(part);
+        }
+        let asks = (client == from) != self.arrow.unwrap_or(false);
+        if service(client.of(line)) != service(server.of(line)) {
+            let direction = if asks { Direction::Request } else { Direction::Response };
+            self.sender = None;
+            self.say(Sender::Says(direction), Weight::Strong);
+        } else if self.arrow.is_some() {
+            // It shows where to, not whether that one is asked.
+            (self.strong, self.sender) = (None, None);
+        }
     }
 
     /// A word that says nothing.
@@ -573,11 +613,17 @@ fn address(line: &[u8], at: usize) -> Option<usize> {
         to = (value < 256 && end - to <= 3).then_some(end)?;
     }
     match line.get(to) {
-        Some(b':') => digits(line, to + 1).map(|(_, end)| end),
+        Some(b':') => Some(digits(line, to + 1).map_or(to, |(_, end)| end)),
         Some(b'.') if line.get(to + 1).is_some_and(u8::is_ascii_hexdigit) => None,
         Some(c) if is_word(*c) => None,
         _ => Some(to),
     }
+}
+
+/// The number behind an address: the client has a high one.
+fn service(address: &[u8]) -> Option<u64> {
+    let colon = address.iter().position(|c| *c == b':')?;
+    digits(address, colon + 1).map(|(number, _)| number)
 }
 
 /// Whether a word names a serial port.
@@ -691,6 +737,34 @@ mod tests {
         let mut scan = Scan::default();
         scan.read(b"[02/03/2026 09:30:05] Written data (COM8)", 0, None);
         assert_eq!((scan.runs.len(), scan.time.is_some(), scan.words), (0, true, 3));
-        assert_eq!(scan.port, Some(Span::new(36, 40)));
+        assert_eq!(scan.port, b"COM8");
+    }
+
+    #[test]
+    fn both_directions_of_a_connection_are_one_port() {
+        let mut scan = Scan::default();
+        let mut read = |text: &str| {
+            scan.read(text.as_bytes(), 0, None);
+            let run = scan.runs.last().expect("bytes");
+            (
+                String::from_utf8_lossy(&scan.port).into_owned(),
+                run.sender.map(|(sender, _)| sender),
+                run.len(),
+            )
+        };
+        let port = "10.0.0.7:49152 – 192.168.0.10:502".to_owned();
+        let (asks, answers) = (Sender::Says(Direction::Request), Sender::Says(Direction::Response));
+        for (text, sender) in [
+            ("10.0.0.7:49152 -> 192.168.0.10:502: 01 06 00 C8 00 03", asks),
+            ("192.168.0.10:502 -> 10.0.0.7:49152: 01 06 00 C8 00 03", answers),
+            ("192.168.0.10:502 <- 10.0.0.7:49152: 01 06 00 C8 00 03", asks),
+            ("src=10.0.0.7:49152 dst=192.168.0.10:502 01 06 00 C8 00 03", asks),
+        ] {
+            assert_eq!(read(text), (port.clone(), Some(sender), 6), "{text}");
+        }
+        assert_eq!(read("10.0.0.7 -> 10.0.0.1: 01 06 00 C8 00 03"), ("10.0.0.7 – 10.0.0.1".into(), None, 6));
+        assert_eq!(read("10.0.0.1 -> 10.0.0.7: 01 06 00 C8 00 03"), ("10.0.0.7 – 10.0.0.1".into(), None, 6));
+        let one = read("[10.0.0.7:49152] TX 01 06 00 C8 00 03");
+        assert_eq!(one, ("10.0.0.7:49152".into(), Some(Sender::Logger), 6));
     }
 }

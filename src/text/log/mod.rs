@@ -61,7 +61,7 @@ pub struct Piece<'a> {
     /// Microseconds, see [`Reader`].
     pub time: Option<i64>,
     pub sender: Option<Sender>,
-    /// `COM8`: what tells several lines apart.
+    /// What tells several lines or connections apart: `COM8`, `10.0.0.7:49152 – 10.0.0.1:502`.
     pub port: Option<&'a [u8]>,
     /// It continues the piece before it.
     pub joins: bool,
@@ -225,7 +225,7 @@ impl Reader {
             (run.marked && (run.tokens() > 1 || telegram), telegram, run.len())
         };
         let best = self.scan.runs.iter().filter(good).max_by_key(weight);
-        let Some(best) = best else { return self.without_bytes(line, time, sink) };
+        let Some(best) = best else { return self.without_bytes(time, sink) };
         let header = self.header.as_mut().filter(|_| alone || row.is_some());
         let joined = header.as_ref().is_some_and(|header| header.row > 0);
         let fallback = header.as_ref().map(|header| (header.time, header.sender, header.port.clone()));
@@ -242,7 +242,7 @@ impl Reader {
         let chosen = |run: &Run| if several { run.len() >= 4 && run.said } else { std::ptr::eq(run, best) };
         for run in self.scan.runs.iter().filter(|run| chosen(run)) {
             let said = run.sender.map(|(sender, _)| sender).or(after).or(header_sender);
-            let port = self.scan.port.map(|span| span.of(line));
+            let port = if self.scan.port.is_empty() { &header_port } else { &self.scan.port };
             sink(Event::Piece(Piece {
                 bytes: self.scan.bytes(run, self.form.numbers.unwrap_or(Numbers::Hex)),
                 places: &self.scan.places[run.first..run.end],
@@ -250,7 +250,7 @@ impl Reader {
                 offset: self.offset,
                 time: time.or(header_time),
                 sender: self.form.marks.as_ref().and_then(|marks| marks.sender(line)).or(said),
-                port: port.or((!header_port.is_empty()).then_some(header_port.as_slice())),
+                port: (!port.is_empty()).then_some(port.as_slice()),
                 joins: self.long || joined || row.is_some_and(|row| row.continues),
                 colon: run.colon,
             }));
@@ -265,14 +265,14 @@ impl Reader {
     }
 
     /// A line without bytes: it may say who speaks in the next one, and when.
-    fn without_bytes(&mut self, line: &[u8], time: Option<i64>, sink: &mut dyn FnMut(Event<'_>)) {
+    fn without_bytes(&mut self, time: Option<i64>, sink: &mut dyn FnMut(Event<'_>)) {
         /// More are a sentence.
         const WORDS: usize = 6;
         let sender = self.scan.sender.map(|(sender, _)| sender);
         let heads = sender.is_some() && self.scan.words <= WORDS && !self.long;
         if heads {
             self.drop_header(sink);
-            let port = self.scan.port.map_or(Vec::new(), |span| span.of(line).to_vec());
+            let port = self.scan.port.clone();
             self.header = Some(Header { time, sender, port, line: self.line, offset: self.offset, row: 0 });
         } else if !self.long {
             sink(Event::Unread { line: self.line, offset: self.offset });

@@ -18,6 +18,8 @@ pub use format::{Format, Refusal};
 pub use pictures::{Bucket, Point, Timeline};
 pub use story::time_text;
 
+use std::collections::HashMap;
+
 use super::Options;
 use super::decode::{Report, decode};
 use crate::dialogue::traffic::{Chunk, Hint, Traffic, statistics};
@@ -86,7 +88,7 @@ pub struct Log {
     traffic: Traffic,
     /// Lines without bytes: number and place.
     unread: Vec<(u32, u32)>,
-    ports: Vec<String>,
+    ports: Ports,
     lines: u32,
     taken: u64,
     full: bool,
@@ -192,7 +194,7 @@ impl Log {
             input,
             traffic,
             unread: Vec::new(),
-            ports: Vec::new(),
+            ports: Ports::default(),
             lines: 0,
             taken: 0,
             full: false,
@@ -341,7 +343,7 @@ impl Log {
             let connection = capture.connections().get(usize::from(port))?;
             return Some(format!("{} – {}", connection.client, connection.server));
         }
-        self.ports.get(usize::from(port).checked_sub(1)?).cloned()
+        self.ports.names.get(usize::from(port).checked_sub(1)?).cloned()
     }
 
     /// How many bytes of memory it takes.
@@ -352,12 +354,7 @@ impl Log {
 }
 
 /// Takes what was found in a text; `false` if no more telegrams can be kept.
-fn take(
-    event: Event<'_>,
-    traffic: &mut Traffic,
-    unread: &mut Vec<(u32, u32)>,
-    ports: &mut Vec<String>,
-) -> bool {
+fn take(event: Event<'_>, traffic: &mut Traffic, unread: &mut Vec<(u32, u32)>, ports: &mut Ports) -> bool {
     let piece = match event {
         Event::Piece(piece) => piece,
         Event::Unread { line, offset } => {
@@ -369,7 +366,7 @@ fn take(
         bytes: piece.bytes,
         time: piece.time,
         hint: hint(piece.sender),
-        port: piece.port.map_or(0, |name| port(ports, name)),
+        port: ports.number(piece.port),
         joins: piece.joins,
         both_ways: false,
         line: piece.line,
@@ -404,16 +401,28 @@ fn hint(sender: Option<Sender>) -> Hint {
     }
 }
 
-/// The number of the port with this name, from 1: 0 is where no name is said.
-fn port(ports: &mut Vec<String>, name: &[u8]) -> u16 {
-    const MOST: usize = 1000;
-    if let Some(known) = ports.iter().position(|known| known.as_bytes() == name) {
-        return known as u16 + 1;
+/// The names that tell several lines and connections of a text apart, numbered from 1.
+#[derive(Debug, Default)]
+struct Ports {
+    numbers: HashMap<Vec<u8>, u16>,
+    names: Vec<String>,
+    latest: u16,
+}
+
+impl Ports {
+    /// The number of the port with this name. A line without one is of the port before it; 0 is where
+    /// none was named yet.
+    fn number(&mut self, name: Option<&[u8]>) -> u16 {
+        /// More share the number of the last one.
+        const MOST: usize = 1000;
+        let Some(name) = name else { return self.latest };
+        if self.numbers.get(name).is_none() && self.names.len() < MOST {
+            self.names.push(String::from_utf8_lossy(name).into_owned());
+            self.numbers.insert(name.to_vec(), self.names.len() as u16);
+        }
+        self.latest = self.numbers.get(name).copied().unwrap_or(MOST as u16);
+        self.latest
     }
-    if ports.len() < MOST {
-        ports.push(String::from_utf8_lossy(name).into_owned());
-    }
-    ports.len() as u16
 }
 
 /// What most telegrams of a file are, by its beginning.
