@@ -126,6 +126,17 @@ impl Splitter {
         self.rule(*function).map_or([None, None], |rules| [whole(&rules.request), whole(&rules.response)])
     }
 
+    /// The other length with which an RTU frame that is right with `length` is right, too.
+    pub fn other_length(&self, bytes: &[u8], length: usize) -> Option<usize> {
+        let Rules { request, response, .. } = self.rule(*bytes.get(1)?)?;
+        [request, response].into_iter().find_map(|rule| {
+            let other = rule.length(&bytes[1..])? + AROUND;
+            let differs = other != length;
+            (differs && right(bytes, Some(other), Some(rule), Begins::Nothing) == Begins::Telegram(other))
+                .then_some(other)
+        })
+    }
+
     #[inline]
     fn rule(&self, function: u8) -> Option<&Rules> {
         self.rules.get(usize::from(function))?.as_ref()

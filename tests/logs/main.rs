@@ -2,6 +2,7 @@
 
 mod bad_files;
 mod conversations;
+mod flow;
 mod generator;
 mod layouts;
 mod noise;

@@ -53,6 +53,8 @@ pub struct Traffic {
     days: i64,
     /// See [`Chunk::both_ways`].
     both_ways: bool,
+    /// See [`flow`](Traffic::flow).
+    flowing: bool,
     /// How many more entries fit.
     room: usize,
     /// See [`pauses`](Self::pauses).
@@ -129,6 +131,7 @@ impl Traffic {
             clock: NO_TIME,
             days: 0,
             both_ways: false,
+            flowing: false,
             room: MOST_ENTRIES,
             pauses: Vec::new(),
         }
@@ -148,12 +151,14 @@ impl Traffic {
             self.close(self.latest);
         }
         (self.latest, self.latest_way) = (index, Some((chunk.port, way)));
-        let stays = chunk.joins && (!self.lanes[index].rows.is_empty() || self.lanes[index].streaming);
+        let lane = &self.lanes[index];
+        let flows = self.flowing && lane.rows.last().is_some_and(|row| row.goes_on(chunk.hint, time));
+        let stays = (chunk.joins || flows) && (!lane.rows.is_empty() || lane.streaming);
         if !stays {
             self.end_chunk(index, &chunk, time);
         }
         let lane = &mut self.lanes[index];
-        lane.streaming |= chunk.both_ways;
+        lane.streaming |= chunk.both_ways || self.flowing;
         let row = Row {
             from: lane.buffer.len() as isize,
             time,
@@ -167,7 +172,7 @@ impl Traffic {
             return true;
         }
         let lane = &mut self.lanes[index];
-        if lane.streaming && lane.buffer.is_empty() {
+        if lane.streaming && lane.buffer.is_empty() && !self.flowing {
             // The usual way of a stream: nothing of it is copied but what is left over.
             lane.rows.clear();
             lane.rows.push(row);
@@ -179,7 +184,8 @@ impl Traffic {
         }
         lane.rows.push(row);
         lane.buffer.extend_from_slice(chunk.bytes);
-        if lane.streaming || (lane.buffer.len() > LONG && can_split(self.protocol)) {
+        let long = lane.buffer.len() > LONG;
+        if (lane.streaming && !self.flowing) || (long && can_split(self.protocol)) {
             lane.streaming = true;
             self.drain_buffer(index, false);
         }
@@ -190,6 +196,29 @@ impl Traffic {
     pub fn stream(&mut self) {
         let index = self.lane(0, 0);
         self.lanes[index].streaming = true;
+    }
+
+    /// `taken` of a file's `size` bytes were read: makes room for what the rest will need, if it is like
+    /// them. To grow step by step would copy all of it again and again, and need twice the memory.
+    pub fn make_room(&mut self, taken: u64, size: u64) {
+        let whole = |part: usize| {
+            let whole = part as u128 * u128::from(size) / u128::from(taken.max(1));
+            usize::try_from(whole + whole / 64).unwrap_or(usize::MAX)
+        };
+        let entries = whole(self.entries.len()).min(MOST_ENTRIES);
+        if self.entries.capacity() < entries {
+            self.entries.reserve_exact(entries - self.entries.len());
+        }
+        let data = whole(self.data.len()).min(usize::try_from(size).unwrap_or(usize::MAX));
+        if self.data.capacity() < data {
+            self.data.reserve_exact(data - self.data.len());
+        }
+    }
+
+    /// Each chunk is a byte or two: they follow each other, and the pauses between them tell where
+    /// telegrams end.
+    pub fn flow(&mut self) {
+        self.flowing = true;
     }
 
     /// The log ends: what is left is read, and the telegrams are met with each other.
@@ -255,8 +284,7 @@ impl Traffic {
         self.read_piece(index, true);
         let lane = &self.lanes[index];
         if let Some(row) = lane.rows.last().filter(|_| lane.held > 0) {
-            let apart = time != NO_TIME && row.time != NO_TIME && time - row.time > PAUSE;
-            if apart || row.hint != next.hint || next.colon {
+            if !row.goes_on(next.hint, time) || next.colon {
                 self.close(index);
             }
         }
@@ -490,6 +518,8 @@ impl Traffic {
     fn split(&mut self, index: usize, bytes: &[u8], from: usize, last: bool) -> usize {
         /// So much that no telegram begins in is given up at once.
         const HOPELESS: usize = 1 << 14;
+        /// A telegram, and another one behind it, have to be there before pauses can tell.
+        const SEEN: usize = 512;
         let main = self.main(index);
         let port = usize::from(self.lanes[index].row(from).port);
         let mut in_step = self.lanes[index].in_step;
@@ -499,10 +529,17 @@ impl Traffic {
         // What lies before `at` and is no telegram begins at `garbage`.
         let (mut garbage, mut at) = (0, std::mem::take(&mut self.lanes[index].barren));
         while at < bytes.len() {
+            if self.flowing && !last && bytes.len() - at < SEEN {
+                break;
+            }
             let waiting = self.waiting[port];
             let place = Place { bytes: &bytes[at..], last, in_step, waiting };
             match self.splitter.begins(main, place) {
                 Begins::Telegram(length) => {
+                    let length = match self.flowing {
+                        true => self.by_pauses(index, place, from + at, length),
+                        false => length,
+                    };
                     let kept = *kept.get_or_insert_with(|| keep(&mut self.data, bytes));
                     if garbage < at {
                         self.unframed(index, &bytes[garbage..at], from + garbage, kept + garbage);
@@ -539,6 +576,38 @@ impl Traffic {
         let lane = &mut self.lanes[index];
         (lane.in_step, lane.barren) = (in_step, at - garbage);
         garbage
+    }
+
+    /// How long the telegram at `from` of a lane is: `length`, unless it is right with another length,
+    /// too, behind which there is a longer pause. The request that waits counts more, and so does the
+    /// answer that follows.
+    fn by_pauses(&self, index: usize, place: Place<'_>, from: usize, length: usize) -> usize {
+        let bytes = place.bytes;
+        let awaited = place.waiting.is_some_and(|it| bytes.starts_with(&[it.unit, it.function]));
+        if awaited || !self.main(index).is(&modbus_rtu::PROTOCOL) {
+            return length;
+        }
+        let Some(other) = self.splitter.other_length(bytes, length) else { return length };
+        if let [Some(asks), _] = self.splitter.rtu_lengths(bytes)
+            && [length, other].contains(&asks)
+            && self.is_answered(&bytes[..asks], &bytes[asks..])
+        {
+            return asks;
+        }
+        let lane = &self.lanes[index];
+        let pause = |length: usize| lane.pause_before(from + length, from + bytes.len());
+        if pause(other) > pause(length) { other } else { length }
+    }
+
+    /// Whether the answer to `request` follows, perhaps behind a stray byte or two.
+    fn is_answered(&self, request: &[u8], next: &[u8]) -> bool {
+        const STRAY: usize = 2;
+        let pdu = request.get(1..request.len() - 2).and_then(|pdu| self.splitter.answer_length(pdu));
+        let Some(length) = pdu.map(|length| length + modbus_rtu::RTU.around()) else { return false };
+        (0..=STRAY).any(|stray| {
+            let answer = next.get(stray..stray + length);
+            answer.is_some_and(|answer| answer[..2] == request[..2] && is_right(answer))
+        })
     }
 
     /// Bytes of a stream without a right telegram: a damaged one, if they begin or end like one.
@@ -678,7 +747,28 @@ impl Traffic {
     }
 }
 
+impl Row {
+    /// Whether a telegram can go on with a chunk of this hint and time.
+    fn goes_on(&self, hint: Hint, time: i64) -> bool {
+        let apart = time != NO_TIME && self.time != NO_TIME && time - self.time > PAUSE;
+        !apart && self.hint == hint
+    }
+}
+
 impl Lane {
+    /// How long nothing came before the byte at `at` of the buffer, if that is the first of its chunk;
+    /// the end of all counts as the longest pause.
+    fn pause_before(&self, at: usize, end: usize) -> i64 {
+        let next = self.rows.partition_point(|row| row.from < at as isize);
+        match self.rows.get(next.saturating_sub(1)..=next) {
+            _ if at >= end => i64::MAX,
+            Some([before, row]) if row.from == at as isize && row.time != NO_TIME => {
+                row.time.saturating_sub(before.time.max(0))
+            }
+            _ => 0,
+        }
+    }
+
     /// The chunk that the byte at `at` of the buffer came in.
     #[inline]
     fn row(&self, at: usize) -> Row {
@@ -701,6 +791,9 @@ impl Lane {
 
     /// The first `count` bytes are gone.
     fn forget(&mut self, count: usize) {
+        if count == 0 {
+            return;
+        }
         for row in &mut self.rows {
             row.from -= count as isize;
         }

@@ -7,8 +7,9 @@ use crate::frame::{ANY_EXCHANGE, Verdict};
 /// What is true for a whole log.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Habits {
-    /// The writer of the log is the client.
-    logger_asks: bool,
+    /// The writer of the log is the client; `None` where sent and received do not tell who asks, as
+    /// where a monitor receives everything.
+    logger_asks: Option<bool>,
     /// Each request comes back to its sender.
     echo: bool,
     /// The log has each telegram twice.
@@ -70,7 +71,7 @@ fn alike(a: &Entry, b: &Entry, data: &[u8]) -> bool {
 
 impl Habits {
     fn of(entries: &[Entry], data: &[u8]) -> Self {
-        let mut logger = 0_i64;
+        let (mut logger, mut hinted) = (0_i64, 0_i64);
         // How many telegrams are only requests, either, only responses: at first, and at once again.
         let mut counts = [[0_usize; 2]; 3];
         let mut previous: Option<&Entry> = None;
@@ -84,6 +85,7 @@ impl Habits {
                 Hint::Other => logger -= side,
                 _ => {}
             }
+            hinted += i64::from(matches!(entry.hint, Hint::Logger | Hint::Other)) * side.abs();
             let same = previous.is_some_and(|it| alike(it, entry, data) && it.port == entry.port);
             doubled = same && !doubled;
             counts[(1 - side) as usize][usize::from(doubled)] += 1;
@@ -93,7 +95,8 @@ impl Habits {
         let most = |[all, again]: [usize; 2]| again > 0 && again * 10 >= all * 6;
         // Nobody answers twice: where the responses are there twice, it is the log.
         let twice = most(responses) && responses[0] > 1;
-        Self { logger_asks: logger >= 0, echo: !twice && most(requests), twice }
+        let logger_asks = (logger.abs() * 2 >= hinted).then_some(logger >= 0);
+        Self { logger_asks, echo: !twice && most(requests), twice }
     }
 }
 
@@ -138,9 +141,12 @@ impl Port {
         let hinted = match entry.hint {
             Hint::None => None,
             Hint::Says(direction) => Some(direction),
-            Hint::Logger if habits.logger_asks => Some(Direction::Request),
-            Hint::Other if !habits.logger_asks => Some(Direction::Request),
-            Hint::Logger | Hint::Other => Some(Direction::Response),
+            Hint::Logger | Hint::Other => {
+                habits.logger_asks.map(|asks| match (entry.hint == Hint::Logger) == asks {
+                    true => Direction::Request,
+                    false => Direction::Response,
+                })
+            }
         };
         let again = self.echoed && last.is_some_and(|(request, _)| alike(&entries[request], &entry, data));
         let echoes = habits.echo && repeats && !self.echoed && (entry.sides[0] || entry.sides == [false; 2]);

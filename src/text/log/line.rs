@@ -80,6 +80,8 @@ pub struct Scan {
     words_since: usize,
     /// Decimal numbers are not asked for.
     hex_only: bool,
+    /// Any number with a fraction is a time in units of so many microseconds.
+    time_unit: Option<i64>,
 }
 
 /// What a token's digits are.
@@ -94,6 +96,11 @@ enum Token {
 }
 
 impl Scan {
+    /// For times that are plain numbers of units of so many microseconds.
+    pub fn timed(time_unit: Option<i64>) -> Self {
+        Self { time_unit, ..Self::default() }
+    }
+
     /// Reads `line` from `from` on. `numbers` says how bytes are written, if that is known.
     pub fn read(&mut self, line: &[u8], from: usize, numbers: Option<Numbers>) {
         self.hex.clear();
@@ -211,7 +218,7 @@ impl Scan {
                 return to;
             }
             if matches!(mark, b':' | b'-' | b'/' | b'.')
-                && let Some(found) = time::at(line, at)
+                && let Some(found) = self.time_at(line, at)
             {
                 self.close();
                 self.time = self.time.or(Some(found.micros));
@@ -241,6 +248,10 @@ impl Scan {
             }
         }
         to
+    }
+
+    fn time_at(&self, line: &[u8], at: usize) -> Option<time::Found> {
+        self.time_unit.and_then(|unit| time::number(line, at, unit)).or_else(|| time::at(line, at))
     }
 
     /// Adds the bytes that the letters and digits `at..to` stand for.

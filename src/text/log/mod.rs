@@ -9,6 +9,7 @@
 
 mod dump;
 mod encoding;
+mod flow;
 mod layouts;
 mod line;
 mod marks;
@@ -16,6 +17,7 @@ mod time;
 mod words;
 
 pub use encoding::{Encoding, encoding};
+pub use flow::{Flow, flow};
 pub use layouts::{EXPORTS, Export, LAYOUTS, Layout, export};
 pub use line::Numbers;
 pub use marks::{Marks, Place};
@@ -33,6 +35,8 @@ pub struct Form {
     pub numbers: Option<Numbers>,
     /// The first number counts the bytes behind it, see [`counted`].
     pub counted: bool,
+    /// Each line has one byte.
+    pub flow: Option<Flow>,
     /// What a person marked in one line.
     pub marks: Option<Marks>,
 }
@@ -105,12 +109,13 @@ const LONGEST_LINE: usize = 1 << 16;
 
 impl Reader {
     pub fn new(form: Form) -> Self {
-        Self { form, ..Self::default() }
+        Self::starting_at(form, 0, 1)
     }
 
     /// Begins in the middle of a file.
     pub fn starting_at(form: Form, offset: u64, line: u32) -> Self {
-        Self { form, offset, line: line.saturating_sub(1), ..Self::default() }
+        let scan = Scan::timed(form.flow.map(|flow| flow.unit));
+        Self { form, scan, offset, line: line.saturating_sub(1), ..Self::default() }
     }
 
     /// Takes the next part of the file.
@@ -224,7 +229,10 @@ impl Reader {
             let telegram = run.said && run.len() >= 4;
             (run.marked && (run.tokens() > 1 || telegram), telegram, run.len())
         };
-        let best = self.scan.runs.iter().filter(good).max_by_key(weight);
+        let best = match self.form.flow {
+            Some(_) => flow::byte(&self.scan),
+            None => self.scan.runs.iter().filter(good).max_by_key(weight),
+        };
         let Some(best) = best else { return self.without_bytes(time, sink) };
         let header = self.header.as_mut().filter(|_| alone || row.is_some());
         let joined = header.as_ref().is_some_and(|header| header.row > 0);

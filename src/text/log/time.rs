@@ -97,11 +97,12 @@ fn group(line: &[u8], from: usize, to: usize) -> Option<(u64, usize)> {
 /// Digits behind a decimal point, in microseconds.
 fn fraction(line: &[u8], at: usize) -> Option<(i64, usize)> {
     let to = at + line.get(at..)?.iter().take_while(|c| is_digit(**c)).count();
-    let micros = (0..6).fold(0, |sum, place| {
-        let digit = line.get(at + place).filter(|_| at + place < to).map_or(0, |c| i64::from(c - b'0'));
-        sum * 10 + digit
-    });
-    (to > at && to - at <= 9).then_some((micros, to))
+    (to > at && to - at <= 9).then(|| (millionths(&line[at..to]), to))
+}
+
+/// The first six digits behind a decimal point.
+fn millionths(digits: &[u8]) -> i64 {
+    (0..6).fold(0, |sum, place| sum * 10 + digits.get(place).map_or(0, |c| i64::from(c - b'0')))
 }
 
 /// Seconds with a fraction of three digits or more: `1772443805.123`, `12.345678`.
@@ -110,6 +111,20 @@ fn seconds(line: &[u8], at: usize) -> Option<Found> {
     let (micros, end) = (line.get(to) == Some(&b'.')).then(|| fraction(line, to + 1)).flatten()?;
     let plain = end - to > 3 && !matches!(line.get(end), Some(b'.' | b':' | b'-'));
     (plain && whole < 100_000_000_000).then_some(Found { micros: whole as i64 * SECOND + micros, to: end })
+}
+
+/// A number with a fraction that a blank or another separator ends, of units of so many microseconds.
+pub fn number(line: &[u8], at: usize, unit: i64) -> Option<Found> {
+    let (whole, to) = digits(line, at)?;
+    let count = line.get(to + 1..)?.iter().take_while(|c| is_digit(**c)).count();
+    let end = to + 1 + count;
+    let parted = matches!(line.get(end), Some(b' ' | b'\t' | b',' | b';'));
+    if line[to] != b'.' || count == 0 || !parted {
+        return None;
+    }
+    let millionths = millionths(&line[to + 1..end]);
+    let micros = i64::try_from(whole).ok()?.checked_mul(unit)?.checked_add(millionths * unit / SECOND)?;
+    Some(Found { micros, to: end })
 }
 
 /// Past `Z`, `+01:00`, `+0100`, which are the same for all lines of a log.

@@ -91,6 +91,7 @@ pub struct Log {
     ports: Ports,
     lines: u32,
     taken: u64,
+    size: u64,
     full: bool,
     /// A file in UTF-16, as it would be in UTF-8.
     transcoded: Option<Vec<u8>>,
@@ -167,9 +168,13 @@ impl Log {
         });
         let is_text = matches!(format, Format::Text { .. });
         let counted = is_text && log::counted(&text, numbers);
-        let form = Form { numbers, counted, marks: reading.marks.clone() };
+        let flow = if is_text && reading.marks.is_none() { log::flow(&text, numbers) } else { None };
+        let form = Form { numbers, counted, flow, marks: reading.marks.clone() };
         let choice = choose(&format, &text, &form, &options);
         let mut traffic = Traffic::new(choice.protocol, &options.settings.frame);
+        if form.flow.is_some() {
+            traffic.flow();
+        }
         let reader = || Box::new(Reader::new(form.clone()));
         let input = match format {
             Format::Text { .. } if encoding.is_utf16() => {
@@ -197,6 +202,7 @@ impl Log {
             ports: Ports::default(),
             lines: 0,
             taken: 0,
+            size,
             full: false,
             transcoded,
             fault: None,
@@ -230,8 +236,12 @@ impl Log {
                 transcoded.get_or_insert_default().extend_from_slice(&text);
             }
             Way::Stream => {
-                let offset = *taken as u32;
-                room = traffic.take(Chunk { bytes: part, joins: true, offset, ..Chunk::default() });
+                // Browsers make code quick between two calls of it, not within one.
+                const PART: usize = 1 << 16;
+                for (n, bytes) in part.chunks(PART).enumerate() {
+                    let offset = (*taken as usize + n * PART) as u32;
+                    room &= traffic.take(Chunk { bytes, joins: true, offset, ..Chunk::default() });
+                }
             }
             #[cfg(feature = "captures")]
             Way::Capture(capture) => {
@@ -246,6 +256,7 @@ impl Log {
         }
         *taken += part.len() as u64;
         *full |= !room;
+        self.traffic.make_room(self.taken, self.size);
         room
     }
 
@@ -282,7 +293,7 @@ impl Log {
         };
         // Prose between telegrams would be marked, word for word.
         let prose = self.right() > FEW && !self.unread.is_empty();
-        self.transcoded.is_none() && !prose
+        self.transcoded.is_none() && self.form.flow.is_none() && !prose
     }
 
     /// How many telegrams have a right check.
@@ -432,6 +443,10 @@ fn choose(format: &Format, text: &[u8], form: &Form, options: &Options) -> Choic
     }
     let settings = &options.settings.frame;
     let pieces = match format {
+        Format::Text { .. } if form.flow.is_some() => {
+            let bytes = pieces(text, form).into_iter().flat_map(|(bytes, _)| bytes).collect();
+            vec![(bytes, false)]
+        }
         Format::Text { .. } => pieces(text, form),
         Format::Stream => vec![(text.to_vec(), false)],
         Format::Capture { .. } => {
@@ -440,8 +455,11 @@ fn choose(format: &Format, text: &[u8], form: &Form, options: &Options) -> Choic
         }
     };
     // Where nothing parts the telegrams, the protocol that finds most of them is meant.
-    let streams: Vec<&[u8]> =
-        pieces.iter().map(|(bytes, _)| bytes.as_slice()).filter(|bytes| bytes.len() > 300).collect();
+    let streams: Vec<&[u8]> = pieces
+        .iter()
+        .map(|(bytes, _)| bytes.as_slice())
+        .filter(|bytes| form.flow.is_some() || bytes.len() > 300)
+        .collect();
     if !streams.is_empty() {
         return fullest(&streams, settings).0;
     }
