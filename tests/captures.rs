@@ -104,7 +104,7 @@ type Carried = (i64, bool, Vec<u8>, bool);
 fn segments(file: &[u8], piece: usize) -> (Vec<Carried>, Result<(), Fault>) {
     let mut capture = Capture::default();
     let mut found = Vec::new();
-    let mut take = |it: Segment<'_>| found.push((it.time, it.from_client, it.bytes.to_vec(), it.gap));
+    let mut take = |it: Segment<'_>| found.push((it.time.unwrap_or_default(), it.from_client, it.bytes.to_vec(), it.gap));
     let mut outcome = Ok(());
     for part in file.chunks(piece) {
         outcome = outcome.and(capture.push(part, &mut take));
@@ -189,6 +189,64 @@ fn telegrams_are_found_in_connections() {
     let log = Log::read(&capture(FORMS[0], &parts), &Reading::default(), Options::default()).unwrap();
     assert_eq!(log.entries().len(), 0);
     assert!(log.story().iter().any(|it| it.to_string().contains("without telegrams")));
+}
+
+/// The same packets as Wireshark and tcpdump print them, with the time in a line above the rows.
+#[test]
+fn dumps_of_packets_are_read_as_captures_are() {
+    let mut packets = Vec::new();
+    for n in 0..20_u8 {
+        let (asks, answers) = (1 + 12 * u32::from(n), 1 + 11 * u32::from(n));
+        let [request, response] =
+            [[0, n, 0, 0, 0, 6, 5, 3, 0, n, 0, 1].to_vec(), [0, n, 0, 0, 0, 5, 5, 3, 2, 0, n].to_vec()];
+        packets.push((u64::from(n) * 100_000, packet(true, asks, ACK, &request)));
+        packets.push((u64::from(n) * 100_000 + 20_000, packet(false, answers, ACK, &response)));
+    }
+    let rows = |text: &mut String, bytes: &[u8], offset: &dyn Fn(usize) -> String, group: usize| {
+        for (row, part) in bytes.chunks(16).enumerate() {
+            let groups: Vec<String> = part
+                .chunks(group)
+                .map(|bytes| bytes.iter().map(|it| format!("{it:02x}")).collect())
+                .collect();
+            let shown: String =
+                part.iter().map(|c| if c.is_ascii_graphic() { char::from(*c) } else { '.' }).collect();
+            text.push_str(&format!("{}  {:48}  {shown}\n", offset(row * 16), groups.join(" ")));
+        }
+    };
+    let (mut wireshark, mut tcpdump) = (String::new(), String::new());
+    for (number, (time, bytes)) in packets.iter().enumerate() {
+        let (second, micro) = (time / 1_000_000, time % 1_000_000);
+        wireshark.push_str(
+            "No.     Time           Source                Destination           Protocol Length Info\n",
+        );
+        wireshark.push_str(&format!(
+            "{:7} {second}.{micro:06}       10.0.0.5              10.0.0.9              Modbus/TCP 66     Query\n\n",
+            number + 1
+        ));
+        rows(&mut wireshark, bytes, &|at| format!("{at:04x}"), 1);
+        wireshark.push('\n');
+        tcpdump.push_str(&format!(
+            "00:00:{second:02}.{micro:06} IP 10.0.0.5.49152 > 10.0.0.9.502: Flags [P.], seq 1:13, ack 1, win 512, length 12\n"
+        ));
+        rows(&mut tcpdump, &bytes[14..], &|at| format!("\t0x{at:04x}:"), 2);
+    }
+    let read = |file: &[u8]| Log::read(file, &Reading::default(), Options::default()).unwrap();
+    let told = |log: &Log| -> Vec<_> {
+        let entries = log.entries().iter();
+        entries
+            .map(|it| {
+                (log.bytes(it).to_vec(), it.direction, it.time(), log.latency(it), log.port_name(it.port))
+            })
+            .collect()
+    };
+    let truth = told(&read(&capture(FORMS[0], &packets)));
+    assert_eq!(truth.len(), 40);
+    for text in [wireshark, tcpdump] {
+        let log = read(text.as_bytes());
+        assert_eq!(told(&log), truth, "{}", &text[..500]);
+        let report = log.report(&text.as_bytes(), &[3]);
+        assert!(report.telegrams[0].line.number > 1, "the line is known");
+    }
 }
 
 proptest! {

@@ -187,6 +187,7 @@ async fn what_is_chosen_is_exported() -> Result {
     page.until("p.count", "1 of ").await?;
     page.wait_for("#telegram-0[aria-selected=true]").await?;
     page.one("#note").await?.send_keys("noise of the new drive").await?;
+    page.until("#telegram-0 .note", "noise of the new drive").await?;
     page.click(".actions .menu summary").await?;
     let csv = std::fs::read_to_string(page.saved("[data-export=csv]").await?)?;
     assert_eq!(csv.lines().count(), 2, "{csv}");

@@ -16,13 +16,15 @@ pub struct Connection {
 /// What one end of a connection sent, in order.
 #[derive(Debug)]
 pub struct Segment<'a> {
-    /// Microseconds since 1970.
-    pub time: i64,
+    /// Microseconds since 1970, or as a text says.
+    pub time: Option<i64>,
     /// Number of the connection, from 0.
     pub connection: usize,
     pub from_client: bool,
     /// Where in the file the packet is that it came in.
     pub offset: u64,
+    /// See [`Packet::line`](super::packets::Packet).
+    pub line: u32,
     pub bytes: &'a [u8],
     /// Bytes before it were not captured.
     pub gap: bool,
@@ -52,8 +54,9 @@ struct Way {
 #[derive(Debug)]
 struct Held {
     number: u32,
-    time: i64,
+    time: Option<i64>,
     offset: u64,
+    line: u32,
     bytes: Vec<u8>,
 }
 
@@ -114,8 +117,17 @@ impl Connections {
             return;
         }
         let (connection, from_client) = self.connection(from, to, false, false);
-        let Packet { time, offset, .. } = *packet;
-        sink(Segment { time, connection, from_client, offset, bytes: payload, gap: false, datagram: true });
+        let Packet { time, offset, line, .. } = *packet;
+        sink(Segment {
+            time,
+            connection,
+            from_client,
+            offset,
+            line,
+            bytes: payload,
+            gap: false,
+            datagram: true,
+        });
     }
 
     /// The file ends.
@@ -160,12 +172,12 @@ impl Connections {
     ) {
         let state = &mut self.ways[connection][way];
         let next = *state.next.get_or_insert(number);
-        let Packet { time, offset, .. } = *packet;
+        let Packet { time, offset, line, .. } = *packet;
         // Numbers wrap around: the distance tells which is before.
         let ahead = number.wrapping_sub(next) as i32;
         if ahead > 0 {
             state.held_bytes += bytes.len();
-            state.held.push(Held { number, time, offset, bytes: bytes.to_vec() });
+            state.held.push(Held { number, time, offset, line, bytes: bytes.to_vec() });
             if state.held.len() > MOST_HELD || state.held_bytes > MOST_HELD_BYTES {
                 self.give_up_gap(connection, way, sink);
             }
@@ -181,6 +193,7 @@ impl Connections {
                 connection,
                 from_client,
                 offset,
+                line,
                 bytes: fresh,
                 gap: false,
                 datagram: false,
@@ -201,12 +214,13 @@ impl Connections {
             let known = next.wrapping_sub(held.number) as usize;
             if let Some(fresh) = held.bytes.get(known..).filter(|fresh| !fresh.is_empty()) {
                 state.next = Some(next.wrapping_add(fresh.len() as u32));
-                let Held { time, offset, .. } = held;
+                let Held { time, offset, line, .. } = held;
                 sink(Segment {
                     time,
                     connection,
                     from_client: way == 0,
                     offset,
+                    line,
                     bytes: fresh,
                     gap: false,
                     datagram: false,
@@ -221,7 +235,7 @@ impl Connections {
         let Some(next) = state.next else { return };
         let nearest = state.held.iter().enumerate().min_by_key(|(_, held)| held.number.wrapping_sub(next));
         let Some(at) = nearest.map(|(at, _)| at) else { return };
-        let Held { number, time, offset, bytes } = state.held.swap_remove(at);
+        let Held { number, time, offset, line, bytes } = state.held.swap_remove(at);
         state.held_bytes -= bytes.len();
         state.next = Some(number.wrapping_add(bytes.len() as u32));
         sink(Segment {
@@ -229,6 +243,7 @@ impl Connections {
             connection,
             from_client: way == 0,
             offset,
+            line,
             bytes: &bytes,
             gap: true,
             datagram: false,

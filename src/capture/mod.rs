@@ -26,6 +26,17 @@ pub struct Capture {
     connections: Connections,
 }
 
+/// A packet that a text shows.
+#[derive(Clone, Copy, Debug)]
+pub struct Shown<'a> {
+    pub bytes: &'a [u8],
+    /// Microseconds.
+    pub time: Option<i64>,
+    /// Where it begins.
+    pub line: u32,
+    pub offset: u64,
+}
+
 impl Capture {
     /// Whether a file that begins so is a capture.
     pub fn recognises(beginning: &[u8]) -> Option<Format> {
@@ -37,6 +48,18 @@ impl Capture {
     pub fn push(&mut self, part: &[u8], sink: &mut dyn FnMut(Segment<'_>)) -> Result<(), Fault> {
         let Self { packets, connections } = self;
         packets.push(part, &mut |packet| read(&packet, connections, sink))
+    }
+
+    /// Whether bytes are a packet by themselves, as dumps show it.
+    pub fn is_packet(bytes: &[u8]) -> bool {
+        Link::tell(bytes).is_some()
+    }
+
+    /// Takes a packet that a text shows from a line on, which begins at `offset`.
+    pub fn push_packet(&mut self, shown: Shown<'_>, sink: &mut dyn FnMut(Segment<'_>)) {
+        let Shown { bytes, time, line, offset } = shown;
+        let Some(link) = Link::tell(bytes) else { return };
+        read(&Packet { time, offset, line, link, bytes }, &mut self.connections, sink);
     }
 
     /// The file ends: gives what waits behind gaps.

@@ -80,6 +80,22 @@ pub enum Link {
 }
 
 impl Link {
+    /// What a packet begins with, by its bytes: Ethernet or IP, if its lengths fit.
+    pub fn tell(bytes: &[u8]) -> Option<Self> {
+        const HEADER: usize = 14;
+        const TAG: usize = 4;
+        let kind = |at: usize| bytes.get(at..at + 2).map(|kind| [kind[0], kind[1]]);
+        let inside = match kind(HEADER - 2)? {
+            [0x08, 0x00] | [0x86, 0xDD] => HEADER,
+            [0x81, 0x00] => HEADER + TAG,
+            _ => return is_ip(bytes).then_some(Self::Ip),
+        };
+        match is_ip(bytes.get(inside..).unwrap_or_default()) {
+            true => Some(Self::Ethernet),
+            false => is_ip(bytes).then_some(Self::Ip),
+        }
+    }
+
     fn of(link: Linktype) -> Self {
         match link.0 {
             1 => Self::Ethernet,
@@ -92,13 +108,31 @@ impl Link {
     }
 }
 
+/// Whether bytes are a packet of IP with TCP or UDP, up to padding at the end.
+fn is_ip(bytes: &[u8]) -> bool {
+    const V6_HEADER: usize = 40;
+    let number = |at: usize| usize::from(u16::from_be_bytes([bytes[at], bytes[at + 1]]));
+    let carries = |kind: u8| matches!(kind, 6 | 17);
+    match bytes.first() {
+        Some(0x45..=0x4F) if bytes.len() >= 20 => {
+            (20..=bytes.len()).contains(&number(2)) && carries(bytes[9])
+        }
+        Some(0x60..=0x6F) if bytes.len() >= V6_HEADER => {
+            number(4) + V6_HEADER <= bytes.len() && carries(bytes[6])
+        }
+        _ => false,
+    }
+}
+
 /// A packet as it was captured.
 #[derive(Debug)]
 pub struct Packet<'a> {
-    /// Microseconds since 1970.
-    pub time: i64,
+    /// Microseconds since 1970, or as a text says.
+    pub time: Option<i64>,
     /// Where its block begins in the file.
     pub offset: u64,
+    /// The line of a text that it begins in; 0 in a file of packets.
+    pub line: u32,
     pub link: Link,
     pub bytes: &'a [u8],
 }
@@ -239,8 +273,9 @@ impl Packets {
                 let fraction = i64::from(frame.ts_usec) / if *nanoseconds { 1000 } else { 1 };
                 self.packets += 1;
                 sink(Packet {
-                    time: i64::from(frame.ts_sec) * 1_000_000 + fraction,
+                    time: Some(i64::from(frame.ts_sec) * 1_000_000 + fraction),
                     offset,
+                    line: 0,
                     link: *link,
                     bytes: frame.data,
                 });
@@ -277,8 +312,9 @@ impl Packets {
                 if let Some(Interface { link, units, offset: since }) = interface {
                     let micros =
                         i64::try_from(u128::from(stamp) * 1_000_000 / u128::from(units)).unwrap_or(i64::MAX);
-                    let time = micros.saturating_add(since.saturating_mul(1_000_000));
-                    sink(Packet { time, offset, link, bytes: data });
+                    let simple = matches!(parsed, Block::SimplePacket(_));
+                    let time = (!simple).then(|| micros.saturating_add(since.saturating_mul(1_000_000)));
+                    sink(Packet { time, offset, line: 0, link, bytes: data });
                 }
             }
         }

@@ -642,7 +642,7 @@ fn dumps_of_a_stream_are_split() {
     let shown = |part: &[u8]| -> String {
         part.iter().map(|byte| if matches!(byte, b' '..=b'~') { char::from(*byte) } else { '.' }).collect()
     };
-    let mut dumps = vec![String::new(); 4];
+    let mut dumps = vec![String::new(); 6];
     for (row, part) in stream.chunks(16).enumerate() {
         let at = row * 16;
         let pairs: Vec<String> = part.chunks(2).map(|pair| joined(pair, "", lower)).collect();
@@ -650,13 +650,19 @@ fn dumps_of_a_stream_are_split() {
         let halves: Vec<String> = part.chunks(8).map(|half| joined(half, " ", lower)).collect();
         writeln!(dumps[1], "{at:08x}  {:48}  |{}|", halves.join("  "), shown(part)).unwrap();
         writeln!(dumps[2], "{at:07o} {}", joined(part, " ", lower)).unwrap();
+        let octal: Vec<String> = part.iter().map(|byte| format!("{byte:03o}")).collect();
+        writeln!(dumps[4], "{at:07o} {}", octal.join(" ")).unwrap();
+        // od fills half a word up with 00.
+        let words = part.chunks(2).map(|pair| u16::from_le_bytes([pair[0], *pair.get(1).unwrap_or(&0)]));
+        let octal: Vec<String> = words.map(|word| format!("{word:06o}")).collect();
+        writeln!(dumps[5], "{at:07o} {}", octal.join(" ")).unwrap();
         if part.len() == 16 {
             let words: Vec<String> =
                 part.chunks(2).map(|pair| format!("{:02x}{:02x}", pair[1], pair[0])).collect();
             writeln!(dumps[3], "{at:07x} {}", words.join(" ")).unwrap();
         }
     }
-    for (dump, text) in dumps.iter().enumerate().take(3) {
+    for (dump, text) in dumps.iter().enumerate().filter(|(dump, _)| *dump != 3) {
         assert_found(text.as_bytes(), &truth, &format!("dump {dump}"));
     }
     // Words with the low byte first; the last row is left out, since it may have half a word.
@@ -773,7 +779,7 @@ fn a_line_can_hold_a_whole_log() {
 fn every_layout_is_tried() {
     let tried = |layout: &Layout| {
         PROGRAMS.iter().any(|program| program.layout == layout.key)
-            || matches!(layout.key, "xxd" | "hexdump" | "od")
+            || matches!(layout.key, "xxd" | "hexdump" | "od" | "tcpdump")
     };
     assert!(LAYOUTS.iter().all(tried));
 }

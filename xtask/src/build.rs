@@ -85,15 +85,13 @@ fn bundler() -> PathBuf {
 /// Compiles a binary for the page in one of the profiles of `Cargo.toml`, and says where its wasm file
 /// is.
 fn compile(binary: &str, features: &str, profile: &str) -> Result<PathBuf> {
-    let flags: Vec<OsString> = local_paths()
-        .into_iter()
-        .map(|(path, name)| {
-            let mut flag = OsString::from("--remap-path-prefix=");
-            flag.push(path);
-            flag.push(format!("={name}"));
-            flag
-        })
-        .collect();
+    let remapped = local_paths().into_iter().map(|(path, name)| {
+        let mut flag = OsString::from("--remap-path-prefix=");
+        flag.push(path);
+        flag.push(format!("={name}"));
+        flag
+    });
+    let flags: Vec<OsString> = remapped.chain(flags_of(profile).iter().map(OsString::from)).collect();
     steps::run(
         tools::cargo()
             .args(["build", "--profile", profile, "--target", tools::WASM])
@@ -104,6 +102,15 @@ fn compile(binary: &str, features: &str, profile: &str) -> Result<PathBuf> {
             .env_remove("RUSTFLAGS"),
     )?;
     Ok(tools::target_folder().join(tools::WASM).join(profile).join(format!("{binary}.wasm")))
+}
+
+/// What the compiler is told besides the profile.
+fn flags_of(profile: &str) -> &'static [&'static str] {
+    match profile {
+        // Browsers take longer to call their `memory.copy` than to copy what a telegram needs.
+        "worker" => &["-Ctarget-feature=-bulk-memory"],
+        _ => &[],
+    }
 }
 
 /// The folders of this machine whose names the compiler would write into the texts of panics, and

@@ -214,11 +214,15 @@ impl Desk {
             "" => drop(notes.remove(&number)),
             text => drop(notes.insert(number, text.to_owned())),
         });
+        self.send_notes();
+    }
+
+    fn send_notes(&self) {
+        self.send(Mail::new("notes").with(self.notes.with_untracked(|notes| pairs_text(notes)).as_str()));
     }
 
     pub fn export(&self, kind: &str) {
-        let notes = self.notes.with_untracked(|pairs| pairs_text(pairs));
-        self.send(Mail::new("export").with(kind).with(notes.as_str()));
+        self.send(Mail::new("export").with(kind));
     }
 
     pub fn ask(&self, kind: &str) {
@@ -321,6 +325,8 @@ impl Desk {
                 self.table.set(mail.text(2));
                 self.lists.set(mail.text(3));
                 self.stage.set(Stage::Ready);
+                // The same file, read in another way.
+                self.send_notes();
             }
             "filtered" => {
                 self.total.set((mail.index(1), mail.index(2)));

@@ -1,13 +1,22 @@
 //! The list's rows.
 
+use std::collections::BTreeMap;
+
 use maud::{Markup, html};
 
 use crate::field::Direction;
 use crate::tool::Verdict;
 use crate::tool::log::{Entry, Log, Role, Source};
 
-/// The rows of the telegrams `indices`, the first of them at place `first` of a list of `total`.
-pub fn rows(log: &Log, source: &dyn Source, indices: &[u32], first: usize, total: usize) -> Markup {
+/// The rows of the telegrams `indices`, the first of them at place `first` of a list of `total`, with
+/// what was noted on telegrams by their numbers.
+pub fn rows(
+    log: &Log,
+    source: &dyn Source,
+    notes: &BTreeMap<usize, String>,
+    indices: &[u32],
+    (first, total): (usize, usize),
+) -> Markup {
     let entries = log.entries();
     // A response says more when its request is known.
     let telegrams = indices.iter().map(|index| *index as usize);
@@ -19,13 +28,21 @@ pub fn rows(log: &Log, source: &dyn Source, indices: &[u32], first: usize, total
     };
     html! {
         @for (place, index) in (first..).zip(indices) {
-            @let entry = &entries[*index as usize];
-            (row(log, entry, *index as usize, place, total, said(*index as usize)))
+            @let index = *index as usize;
+            @let note = notes.get(&(index + 1)).map(String::as_str);
+            (row(log, index, note, (place, total), said(index)))
         }
     }
 }
 
-fn row(log: &Log, entry: &Entry, index: usize, place: usize, total: usize, said: Option<String>) -> Markup {
+fn row(
+    log: &Log,
+    index: usize,
+    note: Option<&str>,
+    (place, total): (usize, usize),
+    said: Option<String>,
+) -> Markup {
+    let entry = &log.entries()[index];
     let discarded = entry.role == Role::Discarded;
     let (arrow, direction) = match (discarded, entry.direction) {
         (true, _) => ("·", "no telegram"),
@@ -51,6 +68,7 @@ fn row(log: &Log, entry: &Entry, index: usize, place: usize, total: usize, said:
             }
             span.unit { @if let Some(unit) = entry.unit.filter(|_| !discarded) { (unit) } }
             span.said {
+                @if let Some(note) = note { span.badge.note title="Your note" { "✎ " (note) } " " }
                 @if let Some(badge) = badge(entry) { span class={ "badge " (badge.1) } { (badge.0) } " " }
                 @match said {
                     Some(said) => (said),

@@ -1,6 +1,7 @@
 //! The worker: it holds the log, reads it, and draws what is asked for.
 
 use std::cell::RefCell;
+use std::collections::BTreeMap;
 
 use wasm_bindgen::closure::Closure;
 use wasm_bindgen::{JsCast, JsValue};
@@ -42,6 +43,10 @@ struct Opened {
     /// The indices of the telegrams that the list shows.
     chosen: Vec<u32>,
     findings: Vec<Finding>,
+    /// What a person noted on telegrams, by their numbers.
+    notes: BTreeMap<usize, String>,
+    /// Which rows were asked for last.
+    in_sight: (usize, usize),
 }
 
 /// A file that can be read at any place.
@@ -58,11 +63,9 @@ impl File {
         self.0.slice_with_f64_and_f64(from as f64, to as f64).ok()
     }
 
-    /// Reads without making others wait: messages come in meanwhile.
-    async fn part(&self, from: u64, length: u64) -> Option<Vec<u8>> {
-        let slice = self.slice(from, length)?;
-        let buffer = JsFuture::from(slice.array_buffer()).await.ok()?;
-        Some(Uint8Array::new(&buffer).to_vec())
+    /// Begins to read, which makes nobody wait: messages come in meanwhile.
+    fn part(&self, from: u64, length: u64) -> Option<JsFuture> {
+        Some(JsFuture::from(self.slice(from, length)?.array_buffer()))
     }
 }
 
@@ -128,14 +131,22 @@ async fn open(turn: u32, file: File, name: String, how: String) {
     let pairs = pairs_of(&how);
     let options = Link::read(pairs.clone()).options;
     let size = file.size();
-    let beginning = file.part(0, log::BEGINNING as u64).await.unwrap_or_default();
-    let mut log = match Log::open(&beginning, size, &reading(&pairs), options) {
+    let mut part = Vec::new();
+    if let Some(beginning) = file.part(0, log::BEGINNING as u64) {
+        come(beginning, &mut part).await;
+    }
+    let mut log = match Log::open(&part, size, &reading(&pairs), options) {
         Ok(log) => log,
         Err(refusal) => return tell(&Mail::new("refused").with(refusal.to_string())),
     };
     let mut at = 0;
+    let mut next = file.part(0, PIECE);
     while at < size {
-        let Some(part) = file.part(at, PIECE).await else {
+        let came = match next {
+            Some(next) => come(next, &mut part).await,
+            None => false,
+        };
+        if !came {
             return tell(
                 &Mail::new("refused")
                     .with("The file can no longer be read: it was changed or moved. Open it again."),
@@ -145,8 +156,10 @@ async fn open(turn: u32, file: File, name: String, how: String) {
         if !latest {
             return;
         }
-        let room = log.push(&part);
         at += part.len() as u64;
+        // The browser reads the next part while this one is taken.
+        next = file.part(at, PIECE);
+        let room = log.push(&part);
         let telegrams = log.entries().len();
         tell(&Mail::new("progress").with(at as f64).with(size as f64).with(telegrams as f64));
         if stopped || !room || part.is_empty() {
@@ -154,13 +167,30 @@ async fn open(turn: u32, file: File, name: String, how: String) {
         }
     }
     log.finish();
-    let opened =
-        Opened { log, file, name, filter: Filter::default(), chosen: Vec::new(), findings: Vec::new() };
+    let opened = Opened {
+        log,
+        file,
+        name,
+        filter: Filter::default(),
+        chosen: Vec::new(),
+        findings: Vec::new(),
+        notes: BTreeMap::new(),
+        in_sight: (0, 0),
+    };
     DESK.with_borrow_mut(|desk| {
         if desk.turn == turn {
             desk.opened.insert(opened).ready();
         }
     });
+}
+
+/// Waits for a part of a file, and puts it into `part`, whose room is used again and again.
+async fn come(next: JsFuture, part: &mut Vec<u8>) -> bool {
+    let Ok(buffer) = next.await else { return false };
+    let bytes = Uint8Array::new(&buffer);
+    part.resize(bytes.length() as usize, 0);
+    bytes.copy_to(part);
+    true
 }
 
 impl Opened {
@@ -192,13 +222,21 @@ impl Opened {
                 self.filter = filter(&pairs_of(&mail.text(1)));
                 self.choose();
             }
-            "rows" => self.rows(mail.index(1), mail.index(2)),
+            "rows" => {
+                self.in_sight = (mail.index(1), mail.index(2));
+                self.rows();
+            }
+            "notes" => {
+                let notes = pairs_of(&mail.text(1)).into_iter();
+                self.notes = notes.filter_map(|(number, note)| Some((number.parse().ok()?, note))).collect();
+                self.rows();
+            }
             "select" => self.select(mail.index(1)),
             "find" => self.find(mail.index(1)),
             "step" => self.step(mail.index(1), mail.number(2) > 0.0),
             "finding" => self.show_finding(mail.index(1)),
             "series" => self.series(mail.number(1), mail.number(2)),
-            "export" => self.export(&mail.text(1), &mail.text(2)),
+            "export" => self.export(&mail.text(1)),
             "unread" => self.unread(),
             "sample" => self.sample(),
             _ => {}
@@ -231,12 +269,13 @@ impl Opened {
         );
     }
 
-    fn rows(&self, first: usize, count: usize) {
+    fn rows(&self) {
         /// More do not fit on any screen.
         const MOST: usize = 200;
+        let (first, count) = self.in_sight;
         let total = self.chosen.len();
         let rows = Span::new(first, first + count.min(MOST)).of(&self.chosen);
-        let markup = rows::rows(&self.log, &self.file, rows, first, total);
+        let markup = rows::rows(&self.log, &self.file, &self.notes, rows, (first, total));
         tell(&Mail::new("rows").with(first as f64).with(markup.into_string()));
     }
 
@@ -289,10 +328,9 @@ impl Opened {
     }
 
     /// The telegrams of the list as a file.
-    fn export(&self, kind: &str, comments: &str) {
+    fn export(&self, kind: &str) {
         /// So many are read at a time.
         const AT_ONCE: usize = 2000;
-        let comments = pairs_of(comments);
         let parts = Array::new();
         match kind {
             "csv" => drop(parts.push(&csv::head().into())),
@@ -303,7 +341,7 @@ impl Opened {
             let text = match kind {
                 "hex" => self.hex(chosen),
                 "log" => self.lines(chosen),
-                _ => self.read(chosen, kind, &comments),
+                _ => self.read(chosen, kind),
             };
             parts.push(&text.into());
         }
@@ -341,15 +379,14 @@ impl Opened {
     }
 
     /// What telegrams say, each by itself, with what their partners tell of them.
-    fn read(&self, chosen: &[u32], kind: &str, comments: &[(String, String)]) -> String {
+    fn read(&self, chosen: &[u32], kind: &str) -> String {
         let entries = self.log.entries();
         let chosen: Vec<usize> =
             chosen.iter().map(|index| *index as usize).filter(|index| entries[*index].counts()).collect();
         let read = self.log.with_partners(chosen.iter().copied());
         let mut report = self.log.report(&self.file, &read);
         for telegram in &mut report.telegrams {
-            let number = telegram.number.to_string();
-            telegram.comment = value_of(comments, &number).to_owned();
+            telegram.comment = self.notes.get(&telegram.number).cloned().unwrap_or_default();
         }
         let places = chosen.iter().filter_map(|index| read.binary_search(index).ok());
         let one = |place: usize| match kind {

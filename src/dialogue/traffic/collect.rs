@@ -283,10 +283,9 @@ impl Traffic {
         }
         self.read_piece(index, true);
         let lane = &self.lanes[index];
-        if let Some(row) = lane.rows.last().filter(|_| lane.held > 0) {
-            if !row.goes_on(next.hint, time) || next.colon {
-                self.close(index);
-            }
+        let Some(row) = lane.rows.last().filter(|_| lane.held > 0) else { return };
+        if !row.goes_on(next.hint, time) || next.colon {
+            self.close(index);
         }
     }
 

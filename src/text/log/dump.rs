@@ -16,14 +16,26 @@ pub struct Row {
     offset: usize,
     /// It goes on where the row before it ended, or further on.
     pub continues: bool,
-    /// Its words of two bytes have the low byte first, as od and hexdump write them.
-    pub low_first: bool,
+    pub words: Words,
+}
+
+/// How the numbers of a row are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Words {
+    /// In hex, in the order of the bytes.
+    InOrder,
+    /// In hex, those of two bytes with the low byte first, as `od -x` and `hexdump` write them.
+    LowFirst,
+    /// In octal: bytes in three digits (`od -b`), two bytes with the low one first in six (`od`).
+    Octal,
 }
 
 impl Dump {
     /// The row that a line is, if it is one.
     pub fn row(&self, line: &[u8]) -> Option<Row> {
         let start = line.iter().take_while(|c| matches!(c, b' ' | b'\t')).count();
+        // tcpdump marks its offsets.
+        let start = start + if line[start..].starts_with(b"0x") { 2 } else { 0 };
         let count = line[start..].iter().take_while(|c| c.is_ascii_hexdigit()).count();
         let digits =
             std::str::from_utf8(&line[start..start + count]).ok().filter(|_| (4..=16).contains(&count))?;
@@ -42,7 +54,15 @@ impl Dump {
         // Most dumps count in hex, od in octal.
         let values = [16, 10, 8].map(|radix| usize::from_str_radix(digits, radix).ok());
         let offset = values[0]?;
-        let row = |offset, continues| Some(Row { from, offset, continues, low_first: od });
+        let first = &line[from + blanks(from)..];
+        let first = &first[..first.iter().take_while(|c| c.is_ascii_alphanumeric()).count()];
+        let octal = od && matches!(first.len(), 3 | 6) && first.iter().all(|c| (b'0'..=b'7').contains(c));
+        let words = match od {
+            _ if octal => Words::Octal,
+            true => Words::LowFirst,
+            false => Words::InOrder,
+        };
+        let row = |offset, continues| Some(Row { from, offset, continues, words });
         match self.next {
             _ if offset == 0 => row(0, false),
             Some(next) if values.contains(&Some(next)) => row(next, true),
@@ -73,6 +93,10 @@ mod tests {
         assert!(dump.row(b"0000020 05 10 0c 90").unwrap().continues, "16 in octal, of od");
         assert!(dump.row(b"00000040: 0510").unwrap().continues, "rows are missing");
         assert!(dump.row(b"00000013: 0510").is_none());
+        assert!(!dump.row(b"\t0x0000:  4500 0034").unwrap().continues);
+        assert_eq!(dump.row(b"0000000 001405 110000").unwrap().words, Words::Octal);
+        assert_eq!(dump.row(b"0000000 005 003").unwrap().words, Words::Octal);
+        assert_eq!(dump.row(b"0000000 0305 c800").unwrap().words, Words::LowFirst);
     }
 
     #[test]

@@ -47,13 +47,18 @@ pub static LAYOUTS: &[Layout] = &[
     ),
     layout("modbus-ascii", "Modbus ASCII, a frame a line", &["^:@@@@@@@@"]),
     layout("xxd", "xxd, a hex dump", &["^@@@@@@@@: @@@@ @@@@", "^@@@@@@@@: @@ @@ @@", "^@@@@@@@@: @@@@"]),
+    layout("tcpdump", "tcpdump -x, packets as hex dumps", &["^0x@@@@:  @@@@ @@@@"]),
     layout("hexdump", "hexdump -C, a hex dump", &["^@@@@@@@@  @@ @@", "^@@@@@@@@  @@  |"]),
     layout(
         "wireshark",
         "Wireshark, packets as hex dumps",
         &["^@@@@   @@ @@", "^@@@@  @@ @@", "^@@@@   @@  "],
     ),
-    layout("od", "od, a dump", &["^####### @@ @@", "^####### @@@@ @@@@"]),
+    layout(
+        "od",
+        "od, a dump",
+        &["^####### @@ @@", "^####### @@@@ @@@@", "^####### ### ###", "^####### ###### ######"],
+    ),
 ];
 
 const fn layout(key: &'static str, name: &'static str, signs: &'static [&'static str]) -> Layout {

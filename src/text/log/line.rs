@@ -103,14 +103,7 @@ impl Scan {
 
     /// Reads `line` from `from` on. `numbers` says how bytes are written, if that is known.
     pub fn read(&mut self, line: &[u8], from: usize, numbers: Option<Numbers>) {
-        self.hex.clear();
-        self.decimal.clear();
-        self.places.clear();
-        self.runs.clear();
-        self.port.clear();
-        (self.time, self.sender, self.open) = (None, None, None);
-        (self.ends, self.arrow) = ([None; 2], None);
-        (self.strong, self.weak, self.words, self.words_since) = (None, None, 0, 0);
+        self.clear();
         self.hex_only = numbers == Some(Numbers::Hex);
         let mut at = from;
         while at < line.len() {
@@ -139,6 +132,44 @@ impl Scan {
                 }
                 _ => at + 1,
             };
+        }
+        self.close();
+    }
+
+    fn clear(&mut self) {
+        self.hex.clear();
+        self.decimal.clear();
+        self.places.clear();
+        self.runs.clear();
+        self.port.clear();
+        (self.time, self.sender, self.open) = (None, None, None);
+        (self.ends, self.arrow) = ([None; 2], None);
+        (self.strong, self.weak, self.words, self.words_since) = (None, None, 0, 0);
+    }
+
+    /// Reads a row of octal numbers: bytes of three digits, and words of six with the low byte first.
+    pub fn read_octal(&mut self, line: &[u8], from: usize) {
+        self.clear();
+        self.hex_only = true;
+        let mut at = from;
+        while at < line.len() {
+            let count = line[at..].iter().take_while(|c| (b'0'..=b'7').contains(*c)).count();
+            let digits = &line[at..at + count];
+            let value = digits.iter().take(6).fold(0_u32, |value, c| value * 8 + u32::from(c - b'0'));
+            let first = self.hex.len();
+            match (count, value) {
+                (3, ..=0xFF) => self.push(value as u8, 0, at, at + 3),
+                (6, ..=0xFFFF) => {
+                    self.push(value as u8, 0, at + 3, at + 6);
+                    self.push((value >> 8) as u8, 0, at, at + 3);
+                }
+                (0, _) => {}
+                _ => return self.close(),
+            }
+            if count > 0 {
+                self.join(line, at, at + count, first, (true, false, false));
+            }
+            at += count.max(1);
         }
         self.close();
     }
@@ -625,7 +656,10 @@ fn address(line: &[u8], at: usize) -> Option<usize> {
     }
     match line.get(to) {
         Some(b':') => Some(digits(line, to + 1).map_or(to, |(_, end)| end)),
-        Some(b'.') if line.get(to + 1).is_some_and(u8::is_ascii_hexdigit) => None,
+        // tcpdump parts the port with a dot: no byte is so high.
+        Some(b'.') if line.get(to + 1).is_some_and(u8::is_ascii_hexdigit) => {
+            digits(line, to + 1).filter(|(value, _)| *value > 255).map(|(_, end)| end)
+        }
         Some(c) if is_word(*c) => None,
         _ => Some(to),
     }
@@ -633,8 +667,9 @@ fn address(line: &[u8], at: usize) -> Option<usize> {
 
 /// The number behind an address: the client has a high one.
 fn service(address: &[u8]) -> Option<u64> {
-    let colon = address.iter().position(|c| *c == b':')?;
-    digits(address, colon + 1).map(|(number, _)| number)
+    let marks = |c: &u8| matches!(c, b'.' | b':');
+    let mut places = (0..address.len()).filter(|at| marks(&address[*at]));
+    digits(address, places.nth(3)? + 1).map(|(number, _)| number)
 }
 
 /// Whether a word names a serial port.

@@ -24,7 +24,7 @@ pub use marks::{Marks, Place};
 pub use words::Sender;
 
 use crate::field::Span;
-use dump::Dump;
+use dump::{Dump, Words};
 use line::{Run, Scan};
 use words::Weight;
 
@@ -71,6 +71,8 @@ pub struct Piece<'a> {
     pub joins: bool,
     /// Digits behind a colon, as Modbus ASCII has them.
     pub colon: bool,
+    /// A row of a dump.
+    pub dumped: bool,
 }
 
 /// Reads a log, piece by piece of the file.
@@ -90,6 +92,8 @@ pub struct Reader {
     /// The line in hand is so long that its beginning was read already.
     long: bool,
     header: Option<Header>,
+    /// The time of a line without bytes, for the dump below it.
+    remembered: Option<i64>,
 }
 
 /// A line without bytes that says something about the next ones.
@@ -121,7 +125,7 @@ impl Reader {
     /// Takes the next part of the file.
     pub fn push(&mut self, part: &[u8], sink: &mut dyn FnMut(Event<'_>)) {
         let mut rest = part;
-        while let Some(end) = rest.iter().position(|c| matches!(c, b'\n' | b'\r')) {
+        while let Some(end) = memchr::memchr2(b'\n', b'\r', rest) {
             let (line, ended) = rest.split_at(end);
             let newline = ended[0] == b'\n';
             if newline && self.after_return && line.is_empty() && self.carry.is_empty() {
@@ -195,11 +199,15 @@ impl Reader {
         let row = if self.long { None } else { self.dump.row(line) };
         let marked = self.form.marks.as_ref().and_then(|marks| marks.bytes_from(line));
         let from = row.map_or(0, |row| row.from).max(marked.unwrap_or(0));
-        self.scan.read(line, from, self.form.numbers);
+        let words = row.map(|row| row.words);
+        match words {
+            Some(Words::Octal) => self.scan.read_octal(line, from),
+            _ => self.scan.read(line, from, self.form.numbers),
+        }
         if self.form.counted {
             self.scan.drop_counts();
         }
-        if row.is_some_and(|row| row.low_first) {
+        if words == Some(Words::LowFirst) {
             swap_words(&mut self.scan);
         }
         let time = match &self.form.marks {
@@ -256,11 +264,12 @@ impl Reader {
                 places: &self.scan.places[run.first..run.end],
                 line: self.line,
                 offset: self.offset,
-                time: time.or(header_time),
+                time: time.or(header_time).or(if row.is_some() { self.remembered } else { None }),
                 sender: self.form.marks.as_ref().and_then(|marks| marks.sender(line)).or(said),
                 port: (!port.is_empty()).then_some(port.as_slice()),
                 joins: self.long || joined || row.is_some_and(|row| row.continues),
                 colon: run.colon,
+                dumped: row.is_some(),
             }));
         }
         // A row that is full goes on in the next one.
@@ -283,6 +292,7 @@ impl Reader {
             let port = self.scan.port.clone();
             self.header = Some(Header { time, sender, port, line: self.line, offset: self.offset, row: 0 });
         } else if !self.long {
+            self.remembered = time;
             sink(Event::Unread { line: self.line, offset: self.offset });
         }
     }
@@ -316,6 +326,8 @@ pub struct Recognised {
     pub with_bytes: usize,
     /// Those of them that say more than the bytes: who speaks, when, an offset.
     pub telling: usize,
+    /// Those of them that are rows of a dump.
+    pub dumped: usize,
 }
 
 /// Looks at the beginning of a log.
@@ -330,18 +342,19 @@ pub fn recognise(text: &[u8]) -> Recognised {
     }
     let best = LAYOUTS.iter().zip(shown).filter(|(_, count)| *count > 0).max_by_key(|(_, count)| *count);
     let layout = best.map(|(layout, _)| layout);
-    let (mut with_bytes, mut telling) = (0, 0);
+    let (mut with_bytes, mut telling, mut dumped) = (0, 0, 0);
     let mut reader = Reader::default();
     let mut count = |event: Event<'_>| {
         if let Event::Piece(piece) = event {
             with_bytes += 1;
+            dumped += usize::from(piece.dumped);
             telling += usize::from(piece.sender.is_some() || piece.time.is_some() || piece.joins);
         }
     };
     reader.push(text, &mut count);
     reader.finish(&mut count);
     let numbers = layout.and_then(|layout| layout.numbers).unwrap_or_else(|| numbers(text));
-    Recognised { layout, numbers, with_bytes, telling }
+    Recognised { layout, numbers, with_bytes, telling, dumped }
 }
 
 /// Whether each line's first number counts the bytes behind it, with nothing else to tell it from

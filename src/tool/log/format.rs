@@ -133,10 +133,11 @@ pub(super) fn tell(beginning: &[u8], reading: &Reading) -> Result<(Format, Encod
         return Ok((Format::Stream, encoding));
     }
     let text = encoding.text(beginning);
-    if let Some(export) = log::export(&text) {
+    let recognised = log::recognise(&text);
+    // The same list can be exported with the bytes below each line.
+    if let Some(export) = log::export(&text).filter(|_| recognised.dumped == 0) {
         return Err(Refusal::NoBytes { name: export.name, instead: export.instead });
     }
-    let recognised = log::recognise(&text);
     let format = Format::Text {
         layout: recognised.layout.map(|layout| layout.key),
         numbers: reading.numbers.unwrap_or(recognised.numbers),

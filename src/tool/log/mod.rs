@@ -6,6 +6,8 @@
 mod filter;
 mod findings;
 mod format;
+#[cfg(feature = "captures")]
+mod packets;
 mod pictures;
 mod rows;
 mod story;
@@ -113,6 +115,8 @@ enum Way {
     Stream,
     #[cfg(feature = "captures")]
     Capture(Box<crate::capture::Capture>),
+    #[cfg(feature = "captures")]
+    Packets(Box<packets::Packets>),
 }
 
 /// Reads a file that is in memory: a log, a capture, a stream, or plain lines of bytes, as pasted.
@@ -170,7 +174,12 @@ impl Log {
         let counted = is_text && log::counted(&text, numbers);
         let flow = if is_text && reading.marks.is_none() { log::flow(&text, numbers) } else { None };
         let form = Form { numbers, counted, flow, marks: reading.marks.clone() };
-        let choice = choose(&format, &text, &form, &options);
+        #[cfg(feature = "captures")]
+        let packets = if is_text { packets::Packets::of(&text, &form) } else { None };
+        #[cfg(not(feature = "captures"))]
+        let packets: Option<()> = None;
+        let of_network = packets.is_some() || matches!(format, Format::Capture { .. });
+        let choice = choose(&format, of_network, &text, &form, &options);
         let mut traffic = Traffic::new(choice.protocol, &options.settings.frame);
         if form.flow.is_some() {
             traffic.flow();
@@ -180,6 +189,8 @@ impl Log {
             Format::Text { .. } if encoding.is_utf16() => {
                 Way::Utf16 { reader: reader(), encoding, odd: Vec::new() }
             }
+            #[cfg(feature = "captures")]
+            Format::Text { .. } if let Some(packets) = packets => Way::Packets(Box::new(packets)),
             Format::Text { .. } => Way::Text(reader()),
             Format::Stream => {
                 traffic.stream();
@@ -253,6 +264,10 @@ impl Log {
                     room = false;
                 }
             }
+            #[cfg(feature = "captures")]
+            Way::Packets(packets) => {
+                packets.push(part, &mut |found| room &= take_of_packet(found, traffic, unread));
+            }
         }
         *taken += part.len() as u64;
         *full |= !room;
@@ -278,6 +293,12 @@ impl Log {
                 if let Err(problem) = capture.finish(&mut segment) {
                     self.fault.get_or_insert(problem.to_string());
                 }
+            }
+            #[cfg(feature = "captures")]
+            Way::Packets(packets) => {
+                let end = packets.finish(&mut |found| _ = take_of_packet(found, traffic, unread));
+                self.lines = packets.lines();
+                debug_assert!(end.is_ok(), "no file of packets was begun");
             }
         }
         self.unread.sort_unstable();
@@ -350,9 +371,16 @@ impl Log {
     /// What tells several lines or connections apart, in the order of [`Entry::port`].
     pub fn port_name(&self, port: u16) -> Option<String> {
         #[cfg(feature = "captures")]
-        if let Way::Capture(capture) = &self.input {
-            let connection = capture.connections().get(usize::from(port))?;
-            return Some(format!("{} – {}", connection.client, connection.server));
+        {
+            let capture = match &self.input {
+                Way::Capture(capture) => Some(&**capture),
+                Way::Packets(packets) => Some(packets.capture()),
+                _ => None,
+            };
+            if let Some(capture) = capture {
+                let connection = capture.connections().get(usize::from(port))?;
+                return Some(format!("{} – {}", connection.client, connection.server));
+            }
         }
         self.ports.names.get(usize::from(port).checked_sub(1)?).cloned()
     }
@@ -386,18 +414,30 @@ fn take(event: Event<'_>, traffic: &mut Traffic, unread: &mut Vec<(u32, u32)>, p
     })
 }
 
+/// Takes what was found in dumps of packets; `false` if no more telegrams can be kept.
+#[cfg(feature = "captures")]
+fn take_of_packet(found: packets::Found<'_>, traffic: &mut Traffic, unread: &mut Vec<(u32, u32)>) -> bool {
+    match found {
+        packets::Found::Segment(segment) => traffic.take(of_segment(&segment)),
+        packets::Found::Unread { line, offset } => {
+            unread.push((line, offset as u32));
+            true
+        }
+    }
+}
+
 #[cfg(feature = "captures")]
 fn of_segment<'a>(segment: &crate::capture::Segment<'a>) -> Chunk<'a> {
     use crate::field::Direction;
     let direction = if segment.from_client { Direction::Request } else { Direction::Response };
     Chunk {
         bytes: segment.bytes,
-        time: Some(segment.time),
+        time: segment.time,
         hint: Hint::Says(direction),
         port: u16::try_from(segment.connection).unwrap_or(u16::MAX),
         joins: !segment.gap && !segment.datagram,
         both_ways: true,
-        line: 0,
+        line: segment.line,
         offset: segment.offset as u32,
         colon: false,
     }
@@ -427,7 +467,7 @@ impl Ports {
         /// More share the number of the last one.
         const MOST: usize = 1000;
         let Some(name) = name else { return self.latest };
-        if self.numbers.get(name).is_none() && self.names.len() < MOST {
+        if !self.numbers.contains_key(name) && self.names.len() < MOST {
             self.names.push(String::from_utf8_lossy(name).into_owned());
             self.numbers.insert(name.to_vec(), self.names.len() as u16);
         }
@@ -437,9 +477,13 @@ impl Ports {
 }
 
 /// What most telegrams of a file are, by its beginning.
-fn choose(format: &Format, text: &[u8], form: &Form, options: &Options) -> Choice {
+fn choose(format: &Format, of_network: bool, text: &[u8], form: &Form, options: &Options) -> Choice {
     if let Some(protocol) = options.protocol {
         return Choice { protocol, reason: message!("set by hand"), others: Vec::new() };
+    }
+    if of_network {
+        let reason = message!("captures of networks mostly hold it");
+        return Choice { protocol: &crate::frame::modbus_tcp::PROTOCOL, reason, others: Vec::new() };
     }
     let settings = &options.settings.frame;
     let pieces = match format {
@@ -448,11 +492,7 @@ fn choose(format: &Format, text: &[u8], form: &Form, options: &Options) -> Choic
             vec![(bytes, false)]
         }
         Format::Text { .. } => pieces(text, form),
-        Format::Stream => vec![(text.to_vec(), false)],
-        Format::Capture { .. } => {
-            let reason = message!("captures of networks mostly hold it");
-            return Choice { protocol: &crate::frame::modbus_tcp::PROTOCOL, reason, others: Vec::new() };
-        }
+        Format::Stream | Format::Capture { .. } => vec![(text.to_vec(), false)],
     };
     // Where nothing parts the telegrams, the protocol that finds most of them is meant.
     let streams: Vec<&[u8]> = pieces
