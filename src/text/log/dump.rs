@@ -73,6 +73,16 @@ impl Dump {
         }
     }
 
+    /// Whether a line is the offset behind the last row, which od and hexdump write by itself.
+    pub fn ends(&self, line: &[u8]) -> bool {
+        let line = line.trim_ascii();
+        let text = std::str::from_utf8(line).ok().filter(|text| (4..=16).contains(&text.len()));
+        let is_next = |text: &str| {
+            [16, 10, 8].iter().any(|radix| usize::from_str_radix(text, *radix).ok() == self.next)
+        };
+        self.next.is_some_and(|next| next > 0) && text.is_some_and(is_next)
+    }
+
     /// The bytes of `row` were read, so many.
     pub fn read(&mut self, row: Row, count: usize) {
         self.next = Some(row.offset.saturating_add(count));
@@ -93,6 +103,7 @@ mod tests {
         assert!(dump.row(b"0000020 05 10 0c 90").unwrap().continues, "16 in octal, of od");
         assert!(dump.row(b"00000040: 0510").unwrap().continues, "rows are missing");
         assert!(dump.row(b"00000013: 0510").is_none());
+        assert!(dump.ends(b"00000010") && dump.ends(b"0000020\n") && !dump.ends(b"00000013"));
         assert!(!dump.row(b"\t0x0000:  4500 0034").unwrap().continues);
         assert_eq!(dump.row(b"0000000 001405 110000").unwrap().words, Words::Octal);
         assert_eq!(dump.row(b"0000000 005 003").unwrap().words, Words::Octal);

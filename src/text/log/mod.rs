@@ -197,6 +197,9 @@ impl Reader {
             return;
         }
         let row = if self.long { None } else { self.dump.row(line) };
+        if row.is_none() && self.dump.ends(line) {
+            return;
+        }
         let marked = self.form.marks.as_ref().and_then(|marks| marks.bytes_from(line));
         let from = row.map_or(0, |row| row.from).max(marked.unwrap_or(0));
         let words = row.map(|row| row.words);
