@@ -104,7 +104,9 @@ type Carried = (i64, bool, Vec<u8>, bool);
 fn segments(file: &[u8], piece: usize) -> (Vec<Carried>, Result<(), Fault>) {
     let mut capture = Capture::default();
     let mut found = Vec::new();
-    let mut take = |it: Segment<'_>| found.push((it.time.unwrap_or_default(), it.from_client, it.bytes.to_vec(), it.gap));
+    let mut take = |it: Segment<'_>| {
+        found.push((it.time.unwrap_or_default(), it.from_client, it.bytes.to_vec(), it.gap))
+    };
     let mut outcome = Ok(());
     for part in file.chunks(piece) {
         outcome = outcome.and(capture.push(part, &mut take));
