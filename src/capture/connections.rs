@@ -23,7 +23,7 @@ pub struct Segment<'a> {
     pub from_client: bool,
     /// Where in the file the packet is that it came in.
     pub offset: u64,
-    /// See [`Packet::line`](super::packets::Packet).
+    /// The line of a text that the packet begins in; 0 in a file of packets.
     pub line: u32,
     pub bytes: &'a [u8],
     /// Bytes before it were not captured.
