@@ -127,6 +127,7 @@ impl Splitter {
     }
 
     /// The other length with which an RTU frame that is right with `length` is right, too.
+    #[cold]
     pub fn other_length(&self, bytes: &[u8], length: usize) -> Option<usize> {
         let Rules { request, response, .. } = self.rule(*bytes.get(1)?)?;
         [request, response].into_iter().find_map(|rule| {

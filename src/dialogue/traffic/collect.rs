@@ -201,9 +201,12 @@ impl Traffic {
     /// `taken` of a file's `size` bytes were read: makes room for what the rest will need, if it is like
     /// them. To grow step by step would copy all of it again and again, and need twice the memory.
     pub fn make_room(&mut self, taken: u64, size: u64) {
+        if !(1..size).contains(&taken) {
+            return;
+        }
         let whole = |part: usize| {
-            let whole = part as u128 * u128::from(size) / u128::from(taken.max(1));
-            usize::try_from(whole + whole / 64).unwrap_or(usize::MAX)
+            let rest = part as u64 * (size - taken) / taken;
+            part + usize::try_from(rest + rest / 64).unwrap_or(usize::MAX / 2)
         };
         let entries = whole(self.entries.len()).min(MOST_ENTRIES);
         if self.entries.capacity() < entries {
@@ -519,7 +522,7 @@ impl Traffic {
         const HOPELESS: usize = 1 << 14;
         /// A telegram, and another one behind it, have to be there before pauses can tell.
         const SEEN: usize = 512;
-        let main = self.main(index);
+        let (main, flowing) = (self.main(index), self.flowing);
         let port = usize::from(self.lanes[index].row(from).port);
         let mut in_step = self.lanes[index].in_step;
         // All that is done with becomes entries, one behind the other: with the first of them, all of
@@ -528,17 +531,15 @@ impl Traffic {
         // What lies before `at` and is no telegram begins at `garbage`.
         let (mut garbage, mut at) = (0, std::mem::take(&mut self.lanes[index].barren));
         while at < bytes.len() {
-            if self.flowing && !last && bytes.len() - at < SEEN {
+            if flowing && !last && bytes.len() - at < SEEN {
                 break;
             }
             let waiting = self.waiting[port];
             let place = Place { bytes: &bytes[at..], last, in_step, waiting };
             match self.splitter.begins(main, place) {
                 Begins::Telegram(length) => {
-                    let length = match self.flowing {
-                        true => self.by_pauses(index, place, from + at, length),
-                        false => length,
-                    };
+                    let length =
+                        if flowing { self.by_pauses(index, place, from + at, length) } else { length };
                     let kept = *kept.get_or_insert_with(|| keep(&mut self.data, bytes));
                     if garbage < at {
                         self.unframed(index, &bytes[garbage..at], from + garbage, kept + garbage);
@@ -580,6 +581,7 @@ impl Traffic {
     /// How long the telegram at `from` of a lane is: `length`, unless it is right with another length,
     /// too, behind which there is a longer pause. The request that waits counts more, and so does the
     /// answer that follows.
+    #[cold]
     fn by_pauses(&self, index: usize, place: Place<'_>, from: usize, length: usize) -> usize {
         let bytes = place.bytes;
         let awaited = place.waiting.is_some_and(|it| bytes.starts_with(&[it.unit, it.function]));
@@ -771,21 +773,20 @@ impl Lane {
     /// The chunk that the byte at `at` of the buffer came in.
     #[inline]
     fn row(&self, at: usize) -> Row {
-        match self.rows.as_slice() {
-            [row] => *row,
-            rows => {
-                let next = rows.partition_point(|row| row.from <= at as isize);
-                rows.get(next.saturating_sub(1)).copied().unwrap_or(Row {
-                    from: 0,
-                    time: NO_TIME,
-                    hint: Hint::None,
-                    port: 0,
-                    line: 0,
-                    offset: 0,
-                    colon: false,
-                })
-            }
+        let at = at as isize;
+        if let Some(last) = self.rows.last().filter(|last| last.from <= at) {
+            return *last;
         }
+        let next = self.rows.partition_point(|row| row.from <= at);
+        self.rows.get(next.saturating_sub(1)).copied().unwrap_or(Row {
+            from: 0,
+            time: NO_TIME,
+            hint: Hint::None,
+            port: 0,
+            line: 0,
+            offset: 0,
+            colon: false,
+        })
     }
 
     /// The first `count` bytes are gone.

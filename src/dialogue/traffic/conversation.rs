@@ -49,9 +49,12 @@ pub(super) fn join_speakers(entries: &mut [Entry]) {
         };
         sides[port][0] |= asks;
         sides[port][1] |= answers;
+        if sides[port] == [true, true] {
+            return;
+        }
     }
     let of = |side: [bool; 2]| sides.iter().filter(|sides| **sides == side).count();
-    if of([true, true]) == 0 && of([true, false]) > 0 && of([false, true]) > 0 {
+    if of([true, false]) > 0 && of([false, true]) > 0 {
         entries.iter_mut().for_each(|entry| entry.port = 0);
     }
 }

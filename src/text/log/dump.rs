@@ -75,12 +75,12 @@ impl Dump {
 
     /// Whether a line is the offset behind the last row, which od and hexdump write by itself.
     pub fn ends(&self, line: &[u8]) -> bool {
-        let line = line.trim_ascii();
-        let text = std::str::from_utf8(line).ok().filter(|text| (4..=16).contains(&text.len()));
-        let is_next = |text: &str| {
-            [16, 10, 8].iter().any(|radix| usize::from_str_radix(text, *radix).ok() == self.next)
-        };
-        self.next.is_some_and(|next| next > 0) && text.is_some_and(is_next)
+        let Some(next) = self.next.filter(|next| *next > 0) else { return false };
+        let digits = line.trim_ascii();
+        let text = std::str::from_utf8(digits).ok().filter(|_| (4..=16).contains(&digits.len()));
+        text.is_some_and(|text| {
+            [16, 10, 8].iter().any(|radix| usize::from_str_radix(text, *radix) == Ok(next))
+        })
     }
 
     /// The bytes of `row` were read, so many.

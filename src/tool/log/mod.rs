@@ -248,10 +248,13 @@ impl Log {
             }
             Way::Stream => {
                 // Browsers make code quick between two calls of it, not within one.
-                const PART: usize = 1 << 16;
-                for (n, bytes) in part.chunks(PART).enumerate() {
-                    let offset = (*taken as usize + n * PART) as u32;
+                const PART: usize = 1 << 18;
+                let mut before = *taken;
+                for bytes in part.chunks(PART) {
+                    let offset = before as u32;
                     room &= traffic.take(Chunk { bytes, joins: true, offset, ..Chunk::default() });
+                    before += bytes.len() as u64;
+                    traffic.make_room(before, self.size);
                 }
             }
             #[cfg(feature = "captures")]
