@@ -1,5 +1,5 @@
 //! The page that builds telegrams.
 
 fn main() {
-    buslens::app::build();
+    buslens_page::app::build();
 }

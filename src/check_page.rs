@@ -1,5 +1,5 @@
 //! The page that works out checks step by step.
 
 fn main() {
-    buslens::app::check();
+    buslens_page::app::check();
 }

@@ -1,5 +1,5 @@
 //! The page that reads telegrams.
 
 fn main() {
-    buslens::app::decode();
+    buslens_page::app::decode();
 }

@@ -1,5 +1,5 @@
 //! The page that says how devices are set up.
 
 fn main() {
-    buslens::app::devices();
+    buslens_page::app::devices();
 }

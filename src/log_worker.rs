@@ -1,5 +1,5 @@
 //! The worker that reads logs.
 
 fn main() {
-    buslens::app::log_worker();
+    buslens_page::app::log_worker();
 }

@@ -1,5 +1,5 @@
 //! The page that shows logs.
 
 fn main() {
-    buslens::app::logs();
+    buslens_page::app::logs();
 }

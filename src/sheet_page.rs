@@ -1,5 +1,5 @@
 //! The page that prints telegrams and exports them.
 
 fn main() {
-    buslens::app::sheet();
+    buslens_page::app::sheet();
 }

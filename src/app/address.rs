@@ -12,7 +12,7 @@ use web_sys::js_sys::{ArrayBuffer, Uint8Array, decode_uri_component, encode_uri_
 use web_sys::{ReadableWritablePair, Response};
 
 use super::browser;
-use crate::tool::link::{Link, kept_settings};
+use buslens::tool::link::{Link, kept_settings};
 
 /// Longer ones are compressed.
 const LONGEST_PLAIN: usize = 400;

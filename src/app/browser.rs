@@ -14,7 +14,7 @@ use web_sys::{
     HtmlElement, HtmlInputElement, HtmlSelectElement, HtmlTextAreaElement, KeyboardEvent, Url,
 };
 
-use crate::field::Span;
+use buslens::field::Span;
 
 /// A panic ends the page's program: says so, and that the input can still be copied.
 pub fn tell_of_panics() {

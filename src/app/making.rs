@@ -7,9 +7,9 @@ use super::address::{self, Shows, Step};
 use super::browser;
 use super::components::form;
 use super::state::State;
-use crate::field::{Message, hex};
-use crate::tool::link::Link;
-use crate::tool::{Editor, Offer, Options, PROTOCOLS, Profile, Protocol, offers};
+use buslens::field::{Message, hex};
+use buslens::tool::link::Link;
+use buslens::tool::{Editor, Offer, Options, PROTOCOLS, Profile, Protocol, offers};
 
 /// The page's state, as handed to every part of it.
 #[derive(Clone, Copy)]

@@ -1,4 +1,4 @@
-//! The page. It shows what [`tool`](crate::tool) makes of the input, and knows no protocol.
+//! The page. It shows what [`tool`](buslens::tool) makes of the input, and knows no protocol.
 //!
 //! - `state`: what is read, `making`: what is built, and `setup`: how devices are set up, `stepping`: a check while it is followed, as signals;
 //! - `browser`: what the browser is asked for; `address`: what a link and a reload bring back;

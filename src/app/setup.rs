@@ -6,8 +6,8 @@ use leptos::prelude::*;
 use super::address::SETTINGS;
 use super::browser;
 use super::components::form;
-use crate::tool::link::{keep_settings, kept_settings};
-use crate::tool::{Change, Entries, Settings, settings};
+use buslens::tool::link::{keep_settings, kept_settings};
+use buslens::tool::{Change, Entries, Settings, settings};
 
 /// The page's state, as handed to every part of it.
 #[derive(Clone, Copy)]

@@ -5,9 +5,9 @@ use leptos::prelude::*;
 
 use super::address::{self, Shows, Step};
 use super::browser;
-use crate::field::{Direction, Field, Message, Span, count, leaves};
-use crate::tool::link::Link;
-use crate::tool::{Detail, Explanation, Options, Report, Settings, Summary, Telegram, decode};
+use buslens::field::{Direction, Field, Message, Span, count, leaves};
+use buslens::tool::link::Link;
+use buslens::tool::{Detail, Explanation, Options, Report, Settings, Summary, Telegram, decode};
 
 /// The page's state, as handed to every part of it.
 #[derive(Clone, Copy)]

@@ -5,8 +5,8 @@ use leptos::prelude::*;
 
 use super::address::{self, Shows};
 use super::browser;
-use crate::tool::link::Link;
-use crate::tool::steps::{Algorithm, CHECKS, Deed, Step, bytes, steps};
+use buslens::tool::link::Link;
+use buslens::tool::steps::{Algorithm, CHECKS, Deed, Step, bytes, steps};
 
 /// The page's state, as handed to every part of it.
 #[derive(Clone, Copy)]

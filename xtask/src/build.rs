@@ -96,7 +96,7 @@ fn compile(binary: &str, features: &str, profile: &str) -> Result<PathBuf> {
         tools::cargo()
             .args(["build", "--profile", profile, "--target", tools::WASM])
             .args(["--no-default-features", "--features", features])
-            .args(["--bin", binary])
+            .args(["--package", "buslens-page", "--bin", binary])
             // Not RUSTFLAGS, which splits at spaces, and a path may have one.
             .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}".as_ref()))
             .env_remove("RUSTFLAGS"),

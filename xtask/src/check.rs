@@ -46,7 +46,7 @@ fn clippy() -> Result {
 
 /// With the page's own profile: what it compiles for this machine then serves the page's build, too.
 fn clippy_for_wasm() -> Result {
-    let target = ["clippy", "--profile", "page", "--target", tools::WASM];
+    let target = ["clippy", "--package", "buslens-page", "--profile", "page", "--target", tools::WASM];
     let features = ["--no-default-features", "--features", "page,keys,captures", "--lib", "--bins"];
     cargo(&[&target[..], &features, &["--", "--deny", "warnings"]].concat())
 }
@@ -64,8 +64,8 @@ fn lean_library() -> Result {
     match found {
         None => Ok(()),
         Some(line) => Err(format!(
-            "The library depends on {line}, which only the page may need: make it optional and \
-             name it in the feature `page`."
+            "The library depends on {line}, which only the page may need: it belongs into the \
+             root package, the page."
         )),
     }
 }
@@ -77,8 +77,8 @@ fn tests() -> Result {
 }
 
 fn examples() -> Result {
-    cargo(&["check", "--examples", "--benches"])?;
-    cargo(&["check", "--lib", "--no-default-features"])
+    cargo(&["check", "--package", "buslens", "--examples", "--benches"])?;
+    cargo(&["check", "--package", "buslens", "--lib", "--no-default-features"])
 }
 
 fn documentation() -> Result {

@@ -9,7 +9,7 @@ use crate::steps::{self, Result};
 use crate::{build, server};
 
 /// What the page is made of.
-const WATCHED: &[&str] = &["src", "style", "page.html", "Cargo.toml", "bundle/src"];
+const WATCHED: &[&str] = &["src", "crates", "style", "page.html", "Cargo.toml", "bundle/src"];
 
 /// How often the files are looked at. Looking at some dozen files costs next to nothing, works on
 /// every system and file system, and needs no library.

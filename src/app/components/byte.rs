@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use crate::app::state::Shown;
-use crate::tool::byte::{itself, shares};
+use buslens::tool::byte::{itself, shares};
 
 pub fn byte(shown: &Shown, at: usize) -> Markup {
     let Some(byte) = shown.bytes().get(at).copied() else { return html! {} };

@@ -5,9 +5,9 @@ use maud::{Markup, html};
 use crate::app::address::fragment;
 use crate::app::browser::span_text;
 use crate::app::state::Shown;
-use crate::field::{Span, hex};
-use crate::tool::link::Link;
-use crate::tool::{Explanation, Options};
+use buslens::field::{Span, hex};
+use buslens::tool::link::Link;
+use buslens::tool::{Explanation, Options};
 
 /// The causes of the telegram that is shown, best first; `options` say how it was read.
 pub fn causes(shown: &Shown, options: &Options) -> Markup {

@@ -6,9 +6,9 @@ use super::causes;
 use crate::app::address::fragment;
 use crate::app::browser::span_text;
 use crate::app::state::Shown;
-use crate::field::{Check, Span, hex, hex_value};
-use crate::tool::link::Link;
-use crate::tool::{Options, Verdict};
+use buslens::field::{Check, Span, hex, hex_value};
+use buslens::tool::link::Link;
+use buslens::tool::{Options, Verdict};
 
 /// `options` say how the telegram was read.
 pub fn check(shown: &Shown, options: &Options) -> Markup {

@@ -7,8 +7,8 @@ use web_sys::Event;
 use super::menu;
 use crate::app::browser;
 use crate::app::state::{Decoded, Shown, State};
-use crate::tool::copy::FORMATS;
-use crate::tool::json;
+use buslens::tool::copy::FORMATS;
+use buslens::tool::json;
 
 /// The menu of formats, with one more where the line carries characters.
 pub fn copies(shown: &Shown) -> Markup {

@@ -10,9 +10,9 @@ use super::{Drawn, byte, check, drawn, examples, fields, layout, strip, views};
 use crate::app::address::fragment;
 use crate::app::browser::{self, DETAIL};
 use crate::app::state::{Chosen, Decoded, Shown, State};
-use crate::field::{Direction, Message, Severity, hex};
-use crate::tool::link::Link;
-use crate::tool::{Certainty, Options, Protocol};
+use buslens::field::{Direction, Message, Severity, hex};
+use buslens::tool::link::Link;
+use buslens::tool::{Certainty, Options, Protocol};
 
 /// Buttons for what can be done with a telegram, to which a link is given.
 pub type Actions = fn(&Shown, &str) -> Markup;

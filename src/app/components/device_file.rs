@@ -7,7 +7,7 @@ use web_sys::Event;
 use super::drawn;
 use crate::app::browser;
 use crate::app::setup::Setup;
-use crate::tool::{Settings, settings};
+use buslens::tool::{Settings, settings};
 
 #[component]
 pub fn DeviceFile(setup: Setup) -> impl IntoView {

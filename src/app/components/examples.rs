@@ -4,8 +4,8 @@ use maud::{Markup, html};
 
 use crate::app::browser;
 use crate::app::state::State;
-use crate::tool::Profile;
-use crate::tool::examples::{EXAMPLES, Group};
+use buslens::tool::Profile;
+use buslens::tool::examples::{EXAMPLES, Group};
 
 /// The examples as buttons, group by group.
 pub fn examples() -> Markup {

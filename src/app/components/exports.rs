@@ -6,7 +6,7 @@ use web_sys::Event;
 
 use crate::app::browser;
 use crate::app::state::State;
-use crate::tool::{Report, annotated, csv, json};
+use buslens::tool::{Report, annotated, csv, json};
 
 #[component]
 pub fn Exports() -> impl IntoView {

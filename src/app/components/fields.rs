@@ -5,8 +5,8 @@ use maud::{Markup, html};
 use super::strip::{faulty, role_class};
 use crate::app::browser::span_text;
 use crate::app::state::Shown;
-use crate::field::{Bits, Field, Message, Value, count, hex};
-use crate::tool::Block;
+use buslens::field::{Bits, Field, Message, Value, count, hex};
+use buslens::tool::Block;
 
 /// The rows of all fields of the telegram.
 pub fn fields(shown: &Shown) -> Vec<String> {

@@ -9,8 +9,8 @@ use super::settings::list;
 use crate::app::browser::{self, DEVICE, PROTOCOL};
 use crate::app::making::{Made, Making};
 use crate::app::state::State;
-use crate::field::count;
-use crate::tool::{Editor, PROFILES, PROTOCOLS, Profile, Protocol};
+use buslens::field::count;
+use buslens::tool::{Editor, PROFILES, PROTOCOLS, Profile, Protocol};
 
 #[component]
 pub fn Finder(making: Making) -> impl IntoView {

@@ -5,8 +5,8 @@ use web_sys::Event;
 
 use super::strip::role_class;
 use crate::app::browser;
-use crate::field::{Bits, Message, Role, Spec, hex_value, number_text};
-use crate::tool::{Change, Content, Entries, Entry, parse_value};
+use buslens::field::{Bits, Message, Role, Spec, hex_value, number_text};
+use buslens::tool::{Change, Content, Entries, Entry, parse_value};
 
 /// Calls `make` with the path and the change, if the event is one of an entry.
 pub fn hear(kind: &str, event: &Event, make: impl FnOnce(&str, Change)) {

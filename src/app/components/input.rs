@@ -7,8 +7,8 @@ use web_sys::{Element, Event, HtmlTextAreaElement};
 use super::{drawn, header, marks, settings};
 use crate::app::browser::{self, FILE, INPUT};
 use crate::app::state::State;
-use crate::field::{Severity, Span, count};
-use crate::tool::{Remark, Report};
+use buslens::field::{Severity, Span, count};
+use buslens::tool::{Remark, Report};
 
 #[component]
 pub fn Input(state: State) -> impl IntoView {

@@ -3,8 +3,8 @@
 use maud::{Markup, html};
 
 use super::strip::role_class;
-use crate::field::Message;
-use crate::tool::{Detail, Row, Size};
+use buslens::field::Message;
+use buslens::tool::{Detail, Row, Size};
 
 pub fn layout(detail: &Detail, layout: &[Row]) -> Markup {
     let rows = || layout.iter().filter(|row| row.size != Size::Group);

@@ -7,8 +7,8 @@ use web_sys::Event;
 use super::{Drawn, drawn};
 use crate::app::browser::{self, LIST};
 use crate::app::state::State;
-use crate::field::Direction;
-use crate::tool::{Certainty, Report, Verdict};
+use buslens::field::Direction;
+use buslens::tool::{Certainty, Report, Verdict};
 
 /// The height of a row in pixels; the stylesheet has the same.
 const ROW: usize = 48;

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use crate::app::state::Decoded;
-use crate::field::{Severity, Span};
+use buslens::field::{Severity, Span};
 
 /// Beyond this many bytes, laying out the text anew at each move of the pointer would be felt.
 const LONGEST_LIT: usize = 20_000;

@@ -9,9 +9,9 @@ use super::{Drawn, drawn};
 use crate::app::address::fragment;
 use crate::app::making::{Made, Making};
 use crate::app::state::State;
-use crate::field::{Direction, Message, hex};
-use crate::tool::Options;
-use crate::tool::link::Link;
+use buslens::field::{Direction, Message, hex};
+use buslens::tool::Options;
+use buslens::tool::link::Link;
 
 #[component]
 pub fn Replies(making: Making, state: State) -> impl IntoView {

@@ -7,8 +7,8 @@ use web_sys::Event;
 use super::examples;
 use crate::app::browser::{self, DEVICE, DIRECTION, FILE, PROTOCOL};
 use crate::app::state::State;
-use crate::field::Direction;
-use crate::tool::{PROFILES, PROTOCOLS, Profile, Protocol};
+use buslens::field::Direction;
+use buslens::tool::{PROFILES, PROTOCOLS, Profile, Protocol};
 
 #[component]
 pub fn Settings() -> impl IntoView {

@@ -6,8 +6,8 @@ use maud::{Markup, html};
 use super::drawn;
 use super::strip::role_class;
 use crate::app::state::{Decoded, State};
-use crate::field::{Direction, Field, Message, Severity, hex, leaves};
-use crate::tool::{Detail, Telegram, Verdict, annotated};
+use buslens::field::{Direction, Field, Message, Severity, hex, leaves};
+use buslens::tool::{Detail, Telegram, Verdict, annotated};
 
 #[component]
 pub fn Telegrams(state: State) -> impl IntoView {

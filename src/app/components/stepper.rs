@@ -8,8 +8,8 @@ use super::settings::list;
 use super::{Drawn, drawn};
 use crate::app::browser;
 use crate::app::stepping::{AT, BYTES, Followed, KIND, Stepping};
-use crate::field::{count, hex_value};
-use crate::tool::steps::{CHECKS, Deed, MOST, POLYNOMIAL, Step};
+use buslens::field::{count, hex_value};
+use buslens::tool::steps::{CHECKS, Deed, MOST, POLYNOMIAL, Step};
 
 #[component]
 pub fn Stepper(stepping: Stepping) -> impl IntoView {

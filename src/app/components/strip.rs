@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use crate::app::browser::span_text;
 use crate::app::state::Shown;
-use crate::field::{Field, Numbering, Role, Severity};
+use buslens::field::{Field, Numbering, Role, Severity};
 
 /// More bytes than a telegram can have are not worth a cell each.
 const MOST: usize = 300;

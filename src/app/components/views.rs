@@ -3,8 +3,8 @@
 use maud::{Markup, html};
 
 use crate::app::state::Shown;
-use crate::field::{Order, Span};
-use crate::tool::{Kind, View, guess, views};
+use buslens::field::{Order, Span};
+use buslens::tool::{Kind, View, guess, views};
 
 /// The views of the chosen register, or how to choose one.
 pub fn chosen(shown: &Shown, chosen: Option<Span>) -> Markup {

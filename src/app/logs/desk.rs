@@ -12,7 +12,7 @@ use web_sys::{Blob, Element, HtmlLinkElement, MessageEvent, Worker, WorkerOption
 use super::mail::{Mail, pairs_text};
 use crate::app::address::SETTINGS;
 use crate::app::browser::{self, LIST};
-use crate::field::{Span, many};
+use buslens::field::{Span, many};
 
 thread_local! {
     static WORKER: RefCell<Option<Worker>> = const { RefCell::new(None) };

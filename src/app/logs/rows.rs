@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use maud::{Markup, html};
 
-use crate::field::Direction;
-use crate::tool::Verdict;
-use crate::tool::log::{Entry, Log, Role, Source};
+use buslens::field::Direction;
+use buslens::tool::Verdict;
+use buslens::tool::log::{Entry, Log, Role, Source};
 
 /// The rows of the telegrams `indices`, the first of them at place `first` of a list of `total`, with
 /// what was noted on telegrams by their numbers.
@@ -72,7 +72,7 @@ fn row(
                 @if let Some(badge) = badge(entry) { span class={ "badge " (badge.1) } { (badge.0) } " " }
                 @match said {
                     Some(said) => (said),
-                    None => { (crate::field::Message::bytes(entry.length.into())) " discarded: " code { (crate::field::hex(&log.bytes(entry)[..usize::from(entry.length).min(24)])) } }
+                    None => { (buslens::field::Message::bytes(entry.length.into())) " discarded: " code { (buslens::field::hex(&log.bytes(entry)[..usize::from(entry.length).min(24)])) } }
                 }
             }
             span.latency { @if entry.direction == Direction::Response { @if let Some(latency) = log.latency(entry) { (milliseconds(latency)) } } }
@@ -101,7 +101,7 @@ fn badge(entry: &Entry) -> Option<(&'static str, &'static str)> {
 
 /// The time of day without its date, which the summary tells.
 fn clock(time: i64) -> String {
-    let text = crate::tool::log::time_text(time);
+    let text = buslens::tool::log::time_text(time);
     match text.split_once(' ') {
         Some((_, clock)) if !clock.starts_with('(') => clock.to_owned(),
         _ => text,

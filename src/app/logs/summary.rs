@@ -4,9 +4,9 @@ use maud::{Markup, html};
 
 use super::rows::milliseconds;
 use crate::app::components::settings::list;
-use crate::field::count;
-use crate::tool::log::{Finding, Log, Wanted};
-use crate::tool::{PROFILES, PROTOCOLS};
+use buslens::field::count;
+use buslens::tool::log::{Finding, Log, Wanted};
+use buslens::tool::{PROFILES, PROTOCOLS};
 
 /// The log in sentences.
 pub fn story(log: &Log, name: &str) -> Markup {

@@ -5,9 +5,9 @@ use maud::{Markup, html};
 use crate::app::address::fragment;
 use crate::app::components::{check, detail, fields, strip};
 use crate::app::state::Shown;
-use crate::field::{Direction, Message, Span, hex};
-use crate::tool::link::Link;
-use crate::tool::log::{Entry, Log, Role, Source};
+use buslens::field::{Direction, Message, Span, hex};
+use buslens::tool::link::Link;
+use buslens::tool::log::{Entry, Log, Role, Source};
 
 use super::rows::milliseconds;
 
@@ -35,7 +35,7 @@ pub fn telegram(log: &Log, source: &dyn Source, index: usize) -> Markup {
                 }
                 @if let Some(latency) = log.latency(entry) { " after " (milliseconds(latency)) }
             }
-            @if let Some(time) = entry.time() { " · " (crate::tool::log::time_text(time)) }
+            @if let Some(time) = entry.time() { " · " (buslens::tool::log::time_text(time)) }
             @if entry.line > 0 { " · line " (entry.line) }
         }
         h2 { (shown.detail.meaning().sentence()) "." }

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::rows::milliseconds;
-use crate::tool::log::{Point, Timeline, time_text};
+use buslens::tool::log::{Point, Timeline, time_text};
 
 /// The width of a picture, in its own units.
 const WIDTH: f64 = 720.0;
@@ -73,7 +73,7 @@ pub fn series(points: &[Point], what: &str) -> Markup {
     html! {
         @match (points.first(), points.last()) {
             (Some(first), Some(last)) => {
-                p.title { (what) ": " (crate::field::count(points.len(), "value")) ", " (low) " to " (high) }
+                p.title { (what) ": " (buslens::field::count(points.len(), "value")) ", " (low) " to " (high) }
                 svg.series viewBox={ "0 0 " (WIDTH) " " (HEIGHT) } role="group" aria-label={ (what) " over time" } {
                     polyline points=(line.join(" ")) {}
                     @for (index, point) in points.iter().enumerate() {

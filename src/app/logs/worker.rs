@@ -11,10 +11,10 @@ use web_sys::{Blob, DedicatedWorkerGlobalScope, FileReaderSync, MessageEvent};
 
 use super::mail::{Mail, pairs_of, value_of};
 use super::{rows, summary, telegram, timeline};
-use crate::field::{Direction, Span};
-use crate::tool::link::Link;
-use crate::tool::log::{self, Filter, Finding, Input, Log, Marks, Numbers, Place, Reading, Source, Wanted};
-use crate::tool::{annotated, csv, json};
+use buslens::field::{Direction, Span};
+use buslens::tool::link::Link;
+use buslens::tool::log::{self, Filter, Finding, Input, Log, Marks, Numbers, Place, Reading, Source, Wanted};
+use buslens::tool::{annotated, csv, json};
 
 /// What is read at a time.
 const PIECE: u64 = 4 << 20;
@@ -360,7 +360,7 @@ impl Opened {
 
     fn hex(&self, chosen: &[u32]) -> String {
         let entries = chosen.iter().map(|index| &self.log.entries()[*index as usize]);
-        entries.map(|entry| crate::field::hex(self.log.bytes(entry)) + "\n").collect()
+        entries.map(|entry| buslens::field::hex(self.log.bytes(entry)) + "\n").collect()
     }
 
     /// The log's own lines.

@@ -6,7 +6,7 @@ use web_sys::Event;
 
 use crate::app::components::{detail, examples, header, input, list, menu, settings};
 use crate::app::state::{Shown, State};
-use crate::field::hex;
+use buslens::field::hex;
 
 /// An event of the page, for the part that it concerns.
 pub fn hear(state: State, event: &Event) {

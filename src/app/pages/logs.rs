@@ -7,7 +7,7 @@ use web_sys::{Element, Event, HtmlInputElement};
 use crate::app::browser::{self, DETAIL, DEVICE, FILE, LIST, PROTOCOL};
 use crate::app::components::{Drawn, detail, drawn, header, input, list, menu};
 use crate::app::logs::desk::{Desk, Stage, now};
-use crate::field::{Span, grouped, many};
+use buslens::field::{Span, grouped, many};
 
 /// An event of the page, for the part that it concerns.
 pub fn hear(desk: Desk, event: &Event) {

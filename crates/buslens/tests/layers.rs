@@ -15,8 +15,10 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("capture", &[]),
     ("dialogue", &["field", "walk", "modbus", "profibus", "frame"]),
     ("tool", &["field", "walk", "modbus", "profibus", "frame", "device", "text", "capture", "dialogue"]),
-    ("app", &["field", "tool"]),
 ];
+
+/// What the page may use of the library.
+const PAGE: &[&str] = &["field", "tool"];
 
 /// Crates that only the page may use.
 const PAGE_CRATES: &[&str] = &["leptos", "web_sys", "wasm_bindgen", "js_sys", "gloo_events", "gloo_timers"];
@@ -27,16 +29,28 @@ fn layers_import_only_what_is_below_them() {
     for (layer, allowed) in LAYERS {
         for path in rust_files(&source().join(layer)) {
             let text = std::fs::read_to_string(&path).unwrap();
-            for used in imports(&text) {
+            for used in imports(&text, "crate::") {
                 if used != *layer && !allowed.contains(&used.as_str()) {
                     wrong.push(format!("{}: {layer} must not use {used}", path.display()));
                 }
             }
-            for name in PAGE_CRATES.iter().filter(|_| *layer != "app") {
+            for name in PAGE_CRATES {
                 if code(&text).any(|line| line.contains(&format!("{name}::"))) {
                     wrong.push(format!("{}: only the page may use {name}", path.display()));
                 }
             }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn the_page_sees_tools_and_words_only() {
+    let mut wrong = Vec::new();
+    for path in rust_files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../src")) {
+        let text = std::fs::read_to_string(&path).unwrap();
+        for used in imports(&text, "buslens::").filter(|used| !PAGE.contains(&used.as_str())) {
+            wrong.push(format!("{}: the page must not use {used}", path.display()));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
@@ -58,7 +72,7 @@ fn every_folder_is_a_layer() {
 fn imports_are_found_in_every_form() {
     let text = "use crate::field::{Span, Spec};\n    let x = crate::walk::read(a);\nuse crate::{text, tool::decode};\n\
                 // crate::app is only spoken of\nuse crate::message;\n";
-    let found: Vec<String> = imports(text).collect();
+    let found: Vec<String> = imports(text, "crate::").collect();
     assert_eq!(found, ["field", "walk", "text", "tool"]);
 }
 
@@ -83,10 +97,10 @@ fn code(text: &str) -> impl Iterator<Item = &str> {
     text.lines().filter(|line| !line.trim_start().starts_with("//"))
 }
 
-/// The modules of this crate that `text` names. `message` is a macro that belongs to `field`.
-fn imports(text: &str) -> impl Iterator<Item = String> {
+/// The modules that `text` names behind `root`. `message` is a macro that belongs to `field`.
+fn imports<'a>(text: &'a str, root: &'a str) -> impl Iterator<Item = String> + 'a {
     code(text)
-        .flat_map(|line| line.match_indices("crate::").map(|(at, found)| &line[at + found.len()..]))
+        .flat_map(move |line| line.match_indices(root).map(|(at, found)| &line[at + found.len()..]))
         .flat_map(|rest| match rest.strip_prefix('{') {
             Some(list) => list.split('}').next().unwrap_or("").split(',').map(first_word).collect::<Vec<_>>(),
             None => vec![first_word(rest)],
