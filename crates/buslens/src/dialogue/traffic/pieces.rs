@@ -311,6 +311,9 @@ impl Traffic {
     /// A telegram came that needs no other piece: what was held is by itself, unless it was a part of this one.
     fn release(&mut self, index: usize, bytes: &[u8]) {
         let Some(held) = self.lanes[index].held.take() else { return };
+        if is_apart(&held, self.lanes[index].row(0)) {
+            return;
+        }
         // A buffer that grows is printed again and again. What lacked only its check was sent by itself.
         if bytes.starts_with(&held.bytes) && !held.complete && held.age == 0 {
             self.gone.extend(held.entries);
@@ -331,11 +334,7 @@ impl Traffic {
             self.lanes[index].held = Some(held);
             return false;
         }
-        let apart = held.rows.last().is_some_and(|last| {
-            let timed = row.time != NO_TIME && last.time != NO_TIME;
-            timed && !(0..=PAUSE).contains(&(row.time - last.time))
-        });
-        if apart {
+        if is_apart(&held, row) {
             return false;
         }
         let length = held.bytes.len();
@@ -492,6 +491,14 @@ impl Traffic {
         });
         debug_assert!(self.entries[before].role == Role::Plain);
     }
+}
+
+/// Whether so much time passed since what is held that nothing goes on with it.
+fn is_apart(held: &Held, row: Row) -> bool {
+    held.rows.last().is_some_and(|last| {
+        let timed = row.time != NO_TIME && last.time != NO_TIME;
+        timed && !(0..=PAUSE).contains(&row.time.saturating_sub(last.time))
+    })
 }
 
 /// The parts of a piece of so many bytes between its breaks, the longest ones first for each beginning; all of
