@@ -434,7 +434,11 @@ impl Report {
         if self.telegrams[request].verdict == Verdict::Wrong {
             return false;
         }
-        let (frame, _) = self.read(request);
+        let (frame, reading) = self.read(request);
+        // The value that a telegram ends in is none.
+        if field::problems(&reading.fields).iter().any(|problem| problem.code == "truncated") {
+            return false;
+        }
         let Content::Modbus { pdu, .. } = frame.content() else { return false };
         let Some(access) = pdu.body.access().filter(|access| access.write) else { return false };
         let Some(start) = access.start else { return false };
