@@ -4,5 +4,6 @@ mod bad_files;
 mod conversations;
 mod flow;
 mod generator;
+mod kinds;
 mod layouts;
 mod noise;

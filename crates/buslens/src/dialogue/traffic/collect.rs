@@ -397,17 +397,7 @@ impl Traffic {
 
     /// Whether an RTU telegram that begins so is longer.
     fn is_beginning(&self, bytes: &[u8]) -> bool {
-        /// Every function's length is told by so many bytes.
-        const TELLING: usize = 12;
-        let rtu = self.protocol.is(&modbus_rtu::PROTOCOL);
-        let known = bytes.get(1).is_some_and(|function| self.splitter.knows(*function));
-        let longer = |length: Option<usize>| match length {
-            Some(length) => length > bytes.len(),
-            None => bytes.len() < TELLING && bytes[1] & EXCEPTION == 0,
-        };
-        rtu && known
-            && bytes.len() < modbus_rtu::RTU.longest()
-            && self.splitter.rtu_lengths(bytes).into_iter().any(longer)
+        self.protocol.is(&modbus_rtu::PROTOCOL) && self.splitter.is_beginning(bytes)
     }
 
     /// Takes a piece that is one right telegram.
