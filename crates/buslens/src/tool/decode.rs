@@ -55,7 +55,10 @@ pub fn decode(text: &str, mut options: Options) -> Report {
         .map(|line| report.explain_display(text, line))
         .partition(|line| !line.bytes.is_empty());
     report.not_understood = empty;
-    lines.iter_mut().for_each(characters_to_bytes);
+    // What a person sets counts more than what bytes look like.
+    if report.options.protocol.is_none_or(|protocol| protocol.is(&modbus_ascii::PROTOCOL)) {
+        lines.iter_mut().for_each(characters_to_bytes);
+    }
     let choices = report.protocols(&lines);
     let mut telegrams = Vec::new();
     for (line, choice) in lines.into_iter().zip(choices) {

@@ -129,8 +129,9 @@ impl Editor {
                 Self::of(&telegram.line.bytes, telegram.choice.protocol, direction, settings)
             }
         };
+        let typed: Vec<_> = link.entries.iter().map(|(path, text)| (path.as_str(), text.as_str())).collect();
         // A link of another version may name entries that there are none of: the others count.
-        link.entries.iter().for_each(|(path, text)| editor.edit(path, Change::Enter(text)));
+        let _ = editor.entries.enter_all(editor.subject.telegram(), &typed);
         Some(editor)
     }
 
