@@ -1,6 +1,5 @@
 //! What once broke, each with its smallest input: no panic, no hang, nothing lost, nothing untrue.
 
-use buslens::device::{Entry, Mapping};
 use buslens::field::Direction;
 use buslens::tool::link::{Link, keep_settings, kept_settings};
 use buslens::tool::{Change, Editor, Entries, Options, PROTOCOLS, Settings, decode, settings};
@@ -79,10 +78,11 @@ mod forms {
     /// Over at once: a walk for each entry would take minutes.
     #[test]
     fn a_link_with_many_entries_is_followed() {
-        let entries = (0..100_000).map(|at| (format!("values.{}.value", at % 120), at.to_string()));
-        let write = format!("01 10 00 00 00 78 F0 {}", "00 07 ".repeat(120));
+        let known = (0..100_000).map(|at| (format!("values.{}.value", at % 120), at.to_string()));
+        let unknown = (0..100_000).map(|at| (format!("values.{at}.worth"), at.to_string()));
+        let write = format!("01 10 00 00 00 78 F0 {} 00 00", "00 07 ".repeat(120));
         let options = Options { protocol: Some(PROTOCOLS[0]), ..Options::default() };
-        let link = Link { entries: entries.collect(), ..Link::to(write, options) };
+        let link = Link { entries: known.chain(unknown).collect(), ..Link::to(write, options) };
         let mut editor = Editor::follow(&link).unwrap();
         assert_eq!(editor.entries().misfits.len(), 120, "99,880 and more are no 16-bit numbers");
         assert_eq!(editor.bytes().unwrap()[7..9], [0, 7]);

@@ -138,21 +138,22 @@ impl Entries {
         let mut refused = Vec::new();
         // What is typed later into the same entry counts.
         let last: HashMap<&str, usize> = texts.iter().zip(0..).map(|((path, _), at)| (*path, at)).collect();
-        let mut typed = Vec::new();
+        let (mut typed, mut changed) = (Vec::new(), false);
         for (_, (path, text)) in (0..).zip(texts).filter(|(at, (path, _))| last[path] == *at) {
-            if self.entry(path).is_none() {
+            if changed && self.entry(path).is_none() {
                 // What was typed before may have made it.
                 self.renew(telegram);
+                changed = false;
             }
             match self.entry(path) {
                 None => refused.push(message!("there is no entry “{path}”", path = (*path).to_owned())),
                 Some(Entry { content: Content::List { .. } | Content::Choice { .. }, .. }) => {
-                    // These make other entries.
-                    self.renew(telegram);
+                    // These make other entries, by all that was typed before.
                     refused.extend(self.enter_list(telegram, path, text));
                 }
                 Some(entry) => {
                     Change::Enter(text).make(entry);
+                    changed = true;
                     typed.push((*path, *text));
                 }
             }
