@@ -154,7 +154,7 @@ impl Editor {
             },
             task: task.map(|task| task.label().to_string()),
             entries: fresh.map_or(Vec::new(), |fresh| self.entries.changed(&fresh.entries)),
-            telegram: 0,
+            ..Link::default()
         }
     }
 
