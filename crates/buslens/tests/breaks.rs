@@ -2,7 +2,7 @@
 
 use buslens::field::Direction;
 use buslens::tool::link::{Link, keep_settings, kept_settings};
-use buslens::tool::{Change, Editor, Entries, Options, PROTOCOLS, Settings, decode, settings};
+use buslens::tool::{Change, Editor, Entries, Options, PROFILES, PROTOCOLS, Settings, decode, settings};
 use buslens::walk::Deviations;
 
 const REQUEST: [u8; 8] = [0x01, 0x03, 0x00, 0xC8, 0x00, 0x03, 0x84, 0x35];
@@ -128,6 +128,199 @@ mod protocols {
             let by_hand = decode(text, Options { protocol: Some(protocol), ..Options::default() });
             let bytes: usize = by_hand.telegrams.iter().map(|telegram| telegram.line.bytes.len()).sum();
             assert_eq!(bytes, if protocol.key == "modbus-ascii" { 3 } else { 7 }, "{}", protocol.key);
+        }
+    }
+}
+
+/// Captures of many connections, far times, strange ends.
+#[cfg(feature = "captures")]
+mod captures {
+    use super::*;
+    use buslens::tool::log::{Filter, Log, Reading};
+
+    /// A packet of Ethernet, IPv4 and TCP from the client `n`, or to it, that has this sequence number.
+    fn packet(n: u32, sequence: u8, payload: &[u8]) -> Vec<u8> {
+        let client = (0x0A00_0000 | n >> 12).to_be_bytes();
+        let port = (0x8000 | (n & 0xFFF)) as u16;
+        let length = (40 + payload.len()) as u16;
+        [
+            &[2, 0, 0, 0, 0, 1, 2, 0, 0, 0, 0, 2, 8, 0, 0x45, 0][..],
+            &length.to_be_bytes(),
+            &[0, 0, 0, 0, 64, 6, 0, 0],
+            &client,
+            &[10, 200, 0, 9],
+            &[port, 502].map(u16::to_be_bytes).concat(),
+            &[0, 0, 0, sequence, 0, 0, 0, 0, 0x50, 16, 0xFF, 0xFF, 0, 0, 0, 0],
+            payload,
+        ]
+        .concat()
+    }
+
+    fn capture(packets: impl Iterator<Item = Vec<u8>>) -> Vec<u8> {
+        let mut file = [0xA1B2_C3D4_u32, 0x0002_0004, 0, 0, 65_535, 1].map(u32::to_be_bytes).concat();
+        for (at, packet) in (0_u32..).zip(packets) {
+            let head = [at / 1000, at % 1000 * 1000, packet.len() as u32, packet.len() as u32];
+            file.extend(head.map(u32::to_be_bytes).as_flattened());
+            file.extend(packet);
+        }
+        file
+    }
+
+    const ASKS: [u8; 12] = [0, 1, 0, 0, 0, 6, 17, 3, 0, 200, 0, 3];
+
+    /// Those beyond the 60,000th shared its number, and their telegrams counted as sent again.
+    #[test]
+    fn more_connections_than_can_be_told_apart_are_counted() {
+        let file = capture((0..61_000).map(|n| packet(n, 100, &ASKS)));
+        let log = Log::read(&file, &Reading::default(), Options::default()).unwrap();
+        assert_eq!(log.entries().len(), 60_000);
+        assert_eq!(log.statistics().retries, 0);
+        let story: Vec<String> = log.story().iter().map(ToString::to_string).collect();
+        assert!(story.iter().any(|line| line.starts_with("1,000 connections")), "{story:?}");
+    }
+
+    /// Over at once: to go through all telegrams for each silent unit took seconds.
+    #[test]
+    fn the_findings_of_many_connections_are_few() {
+        let packets = (0..5 * 40_000_u32).map(|n| {
+            let round = (n / 40_000) as u8;
+            let mut asks = ASKS;
+            asks[1] = round;
+            packet(n % 40_000, 100 + 12 * round, &asks)
+        });
+        let file = capture(packets);
+        let log = Log::read(&file, &Reading::default(), Options::default()).unwrap();
+        let findings = log.findings(&file.as_slice());
+        let silent: Vec<_> = findings.iter().filter(|finding| finding.code == "unit-silent").collect();
+        assert_eq!(silent.len(), 51);
+        assert!(silent[50].text.to_string().starts_with("39,950 units more"), "{}", silent[50].text);
+        assert!(silent.iter().all(|finding| !finding.evidence.is_empty()));
+    }
+
+    /// Times of 64 bits and any resolution lie further apart than can be told.
+    #[test]
+    fn times_far_apart_are_drawn() {
+        let block = |kind: u32, body: &[u8]| {
+            let length = (12 + body.len() as u32).to_be_bytes();
+            [&kind.to_be_bytes()[..], &length, body, &length].concat()
+        };
+        let unknown = [0xFF; 8];
+        let section = block(0x0A0D_0D0A, &[&[0x1A, 0x2B, 0x3C, 0x4D, 0, 1, 0, 0][..], &unknown].concat());
+        for since in [0, i64::MIN, i64::MAX, -1 << 40] {
+            for resolution in [0_u8, 6, 9, 0x80, 0xBF] {
+                let options = [&[0, 9, 0, 1, resolution, 0, 0, 0, 0, 14, 0, 8][..], &since.to_be_bytes()];
+                let body = [&[0, 1, 0, 0, 0, 0, 255, 255][..], &options.concat(), &[0; 4]];
+                let mut file = [section.clone(), block(1, &body.concat())].concat();
+                for (n, stamp) in (0..).zip([0_u64, 1, u64::MAX / 2, u64::MAX]) {
+                    let bytes = packet(n, 100, &ASKS);
+                    let length = (bytes.len() as u32).to_be_bytes();
+                    let padding = vec![0; bytes.len().next_multiple_of(4) - bytes.len()];
+                    let stamp = stamp.to_be_bytes();
+                    let body = [&[0; 4][..], &stamp, &length, &length, &bytes, &padding];
+                    file.extend(block(6, &body.concat()));
+                }
+                let log = Log::read(&file, &Reading::default(), Options::default()).unwrap();
+                assert_eq!(log.entries().len(), 4);
+                let drawn: u32 = log.timeline(None, 10).buckets.iter().map(|bucket| bucket.telegrams).sum();
+                let timed = log.entries().iter().filter(|entry| entry.time().is_some()).count();
+                // Where no times tell, the stretches are of telegrams.
+                assert!(drawn as usize == timed || drawn == 4, "{drawn} of {timed}");
+                let _ = (log.story(), log.findings(&file.as_slice()));
+            }
+        }
+    }
+
+    /// Every word of every device's tables can be searched.
+    #[test]
+    fn every_name_of_a_device_can_be_searched() {
+        let file = capture(std::iter::once(packet(1, 100, &ASKS)));
+        for device in PROFILES {
+            let options = Options { device: Some(device), ..Options::default() };
+            let log = Log::read(&file, &Reading::default(), options).unwrap();
+            let labels = device.areas.iter().map(|area| area.spec.label);
+            let labels = labels.chain(device.parameters().map(|parameter| parameter.spec.label));
+            for word in labels.flat_map(|label| label.split(' ')).chain(["", " ", "0", "1", "65535", "FFFFh"])
+            {
+                for text in [word.to_owned(), format!("{word} 1"), format!("{word} 65535")] {
+                    let filter = Filter { text, ..Filter::default() };
+                    log.filtered(&filter, &file.as_slice(), file.len() as u64);
+                }
+            }
+        }
+    }
+}
+
+mod texts {
+    use super::*;
+    use buslens::tool::log::{Log, Reading};
+
+    /// Reads a log in parts that end at `cuts`.
+    fn read(text: &[u8], cuts: &[usize]) -> Log {
+        let mut log = Log::open(text, text.len() as u64, &Reading::default(), Options::default()).unwrap();
+        let mut from = 0;
+        for to in cuts.iter().copied().chain([text.len()]) {
+            log.push(&text[from..to]);
+            from = to;
+        }
+        log.finish();
+        log
+    }
+
+    /// Where a part ended within a character of two units, or began with a mark, the places of all later
+    /// lines were off.
+    #[test]
+    fn utf_16_is_the_same_in_parts() {
+        let text = "\u{FEFF}# \u{1F600} ok\n\u{FEFF}TX 01 03 00 C8 00 03 84 35 \u{1F600}\n\
+                    RX 01 03 06 00 08 42 A4 F1 DE B0 F8 # \u{FEFF}\n\u{1F600}";
+        for big in [false, true] {
+            let bytes: Vec<u8> = text
+                .encode_utf16()
+                .flat_map(|unit| if big { unit.to_be_bytes() } else { unit.to_le_bytes() })
+                .collect();
+            let whole = read(&bytes, &[]);
+            assert!(!whole.entries().is_empty());
+            for first in 0..bytes.len() {
+                for second in [first, first + 1, first + 2, first + 3] {
+                    let parts = read(&bytes, &[first, second.min(bytes.len())]);
+                    assert_eq!(parts.entries(), whole.entries(), "cut at {first} and {second}");
+                    assert_eq!(parts.unread(), whole.unread(), "cut at {first} and {second}");
+                }
+            }
+        }
+    }
+
+    /// Overflow checks are on in tests.
+    #[test]
+    #[ignore = "text is rewritten"]
+    fn nothing_overflows() {
+        for text in
+            ["0xx", "20000000000000.0", "20000000000000.0 01 03", "99999999999999999999.9 01 03 00 C8"]
+        {
+            read(text.as_bytes(), &[]);
+            decode(text, Options::default());
+        }
+    }
+
+    /// Over at once: to look for the closing quote from every quote took 50 µs a byte.
+    #[test]
+    #[ignore = "text is rewritten"]
+    fn lines_of_quotes_take_linear_time() {
+        for unit in ["'\\", "\"\\", "'", "\"", "b'", "'\\x", "\"'", "(", "[", "{", "<", "`"] {
+            let text = unit.repeat(400_000 / unit.len());
+            read(text.as_bytes(), &[]);
+            decode(&text, Options::default());
+        }
+    }
+
+    /// Over at once, with as much said as somebody can read: each line had a remark of its own, 330 bytes
+    /// of memory for each byte.
+    #[test]
+    #[ignore = "text is rewritten"]
+    fn much_text_of_short_lines_is_decoded() {
+        for line in ["0\n", "01\n", "01\r\n", "G\n", "\n", "01 03\n"] {
+            let report = decode(&line.repeat(1_000_000 / line.len()), Options::default());
+            let remarks: usize = report.lines().map(|line| line.remarks.len()).sum();
+            assert!(remarks < 2000, "{remarks} remarks");
         }
     }
 }
