@@ -237,6 +237,7 @@ fn fdl(place: Place<'_>) -> Begins {
     let Place { bytes, last, in_step, .. } = place;
     let more = if last { Begins::Nothing } else { Begins::More };
     match (Fdl::length(bytes), bytes.first()) {
+        (None, None) => more,
         (None, Some(&profibus_fdl::SD2)) if bytes.len() < 4 => more,
         (None, _) => Begins::Nothing,
         (Some(length), Some(&(SC | SD4))) => match in_step {

@@ -132,14 +132,46 @@ impl Entries {
         changed
     }
 
+    /// What [`enter_all`](Self::enter_all) has to type into the entries `fresh` for these ones: of an
+    /// entry that does not fit first what it held before.
+    pub fn typed(&self, telegram: &mut dyn Telegram, fresh: &Self) -> Vec<(String, String)> {
+        let held: HashMap<String, String> = match self.misfits.is_empty() {
+            true => HashMap::new(),
+            false => texts(&form::form(telegram, &self.deviations)).into_iter().collect(),
+        };
+        let before = |path: &str| {
+            let misfit = self.misfits.iter().any(|misfit| misfit.path == path);
+            held.get(path).filter(|_| misfit).map(|text| (path.to_owned(), text.clone()))
+        };
+        let changed = self.changed(fresh).into_iter();
+        changed.flat_map(|(path, text)| before(&path).into_iter().chain([(path, text)])).collect()
+    }
+
     /// Types all of `texts`, paths and what is typed there, and returns why some cannot be. It takes a
-    /// few walks for all of them, not one for each.
+    /// few walks for all of them, not one for each; of what is typed into one entry only the last two
+    /// texts count, the last of which may not fit.
     pub fn enter_all(&mut self, telegram: &mut dyn Telegram, texts: &[(&str, &str)]) -> Vec<Message> {
         let mut refused = Vec::new();
-        // What is typed later into the same entry counts.
-        let last: HashMap<&str, usize> = texts.iter().zip(0..).map(|((path, _), at)| (*path, at)).collect();
+        let mut last: HashMap<&str, [Option<usize>; 2]> = HashMap::new();
+        for ((path, _), at) in texts.iter().zip(0..) {
+            let places = last.entry(path).or_default();
+            *places = [places[1], Some(at)];
+        }
+        for round in [0, 1] {
+            let counts = |(at, (path, _)): &(usize, &(&str, &str))| last[path][round] == Some(*at);
+            let texts: Vec<(&str, &str)> = (0..).zip(texts).filter(counts).map(|(_, typed)| *typed).collect();
+            if !texts.is_empty() {
+                refused.extend(self.enter_each(telegram, &texts));
+            }
+        }
+        refused
+    }
+
+    /// Types all of `texts`, each into another entry.
+    fn enter_each(&mut self, telegram: &mut dyn Telegram, texts: &[(&str, &str)]) -> Vec<Message> {
+        let mut refused = Vec::new();
         let (mut typed, mut changed) = (Vec::new(), false);
-        for (_, (path, text)) in (0..).zip(texts).filter(|(at, (path, _))| last[path] == *at) {
+        for (path, text) in texts {
             if changed && self.entry(path).is_none() {
                 // What was typed before may have made it.
                 self.renew(telegram);
@@ -244,7 +276,8 @@ fn find<'a>(entries: &'a mut [Entry], path: &str) -> Option<&'a mut Entry> {
 /// Puts what was typed into the entries of `fresh` that were there before.
 fn keep_typed(fresh: &mut [Entry], typed: &[Entry]) {
     for entry in fresh {
-        let Some(before) = typed.iter().find(|before| std::ptr::eq(before.spec, entry.spec)) else {
+        let same = |before: &&Entry| std::ptr::eq(before.spec, entry.spec) && before.key() == entry.key();
+        let Some(before) = typed.iter().find(same) else {
             continue;
         };
         match (&mut entry.content, &before.content) {

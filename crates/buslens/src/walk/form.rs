@@ -39,6 +39,11 @@ impl Entry {
         }
     }
 
+    /// The last part of its path: what a level has too much or too little is shown by one spec.
+    pub fn key(&self) -> &str {
+        self.path.rsplit('.').next().unwrap_or_default()
+    }
+
     /// What is written into it, where that is a text.
     pub fn text(&self) -> Option<&str> {
         match &self.content {
