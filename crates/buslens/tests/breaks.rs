@@ -324,3 +324,113 @@ mod texts {
         }
     }
 }
+
+mod builds {
+    use super::*;
+    use buslens::frame::split::{Begins, Place, Splitter};
+    use buslens::modbus::STANDARD;
+    use buslens::tool::{Offer, Protocol, offers, replies};
+    use buslens::walk;
+
+    /// The bytes that the link of an editor leads to.
+    fn followed(editor: &mut Editor, settings: &Settings) -> Vec<u8> {
+        let link = Link::read(editor.link(settings).pairs());
+        Editor::follow(&link).expect("a link leads to an editor").bytes().unwrap()
+    }
+
+    /// What does not fit left the field as it was at the link's end, and that was something else.
+    #[test]
+    fn a_link_leads_to_the_bytes_that_are_shown() {
+        let settings = Settings::default();
+        let mut editor = Editor::of(&REQUEST, PROTOCOLS[0], Direction::Request, &settings);
+        for (path, text) in [("unit", "0"), ("unit", ""), ("start", "9"), ("start", "seven"), ("crc", "0")] {
+            editor.edit(path, Change::Enter(text));
+            assert_eq!(followed(&mut editor, &settings), editor.bytes().unwrap(), "{path} = {text}");
+        }
+        // A request in a device's words has no bytes in its link.
+        for device in PROFILES {
+            let task = offers(Some(device)).into_iter().find(|offer| matches!(offer, Offer::Task(_)));
+            let made =
+                PROTOCOLS.iter().find_map(|protocol| Editor::new(task.unwrap(), 1, protocol, &settings).ok());
+            let mut editor = made.unwrap();
+            editor.edit("unit", Change::Enter("0"));
+            editor.edit("unit", Change::Enter(""));
+            assert_eq!(followed(&mut editor, &settings), editor.bytes().unwrap(), "{}", device.key);
+            let link = Link::read(editor.link(&settings).pairs());
+            let again = Editor::follow(&link).unwrap();
+            assert_eq!(again.entries().misfits, editor.entries().misfits, "{}", device.key);
+        }
+    }
+
+    /// How many bytes it keeps, and what it has too much, are told by the bytes.
+    #[test]
+    fn a_link_to_a_faulty_telegram_leads_to_its_bytes() {
+        let settings = Settings::default();
+        for (bytes, edits) in [
+            (&[1][..], &[("", "4")][..]),
+            (&[1, 3, 0, 200], &[("", "1"), (".window", "3"), ("", "")]),
+            (&[1, 16, 0, 0, 0, 1, 2, 0, 7, 0, 0], &[("byte_count", "9"), ("values", "3")]),
+        ] {
+            let mut editor = Editor::of(bytes, PROTOCOLS[0], Direction::Request, &settings);
+            for (path, text) in edits {
+                editor.edit(path, Change::Enter(text));
+                assert_eq!(followed(&mut editor, &settings), editor.bytes().unwrap(), "{path} = {text}");
+            }
+        }
+        // A frame and another one behind it.
+        let fdl = Protocol::of("profibus-fdl").unwrap();
+        let mut editor = Editor::of(&[0x10, 0x16], fdl, Direction::Request, &settings);
+        assert_eq!(followed(&mut editor, &settings), [0x10, 0x16]);
+    }
+
+    /// What two windows keep was typed into both.
+    #[test]
+    fn windows_have_entries_of_their_own() {
+        let settings = Settings::default();
+        let mut editor = Editor::of(&[1], PROTOCOLS[0], Direction::Request, &settings);
+        let typed = |editor: &Editor| {
+            let mut typed = Vec::new();
+            editor.entries().form.visit(&mut |entry| {
+                if entry.spec.key == "unexpected" {
+                    typed.push((entry.path.clone(), entry.text().unwrap_or_default().to_owned()));
+                }
+            });
+            typed
+        };
+        let before = typed(&editor);
+        assert_eq!(before.len(), 2, "{before:?}");
+        editor.edit(&before[0].0, Change::Enter("x"));
+        assert_eq!(typed(&editor)[0].1, "x");
+        assert_eq!(typed(&editor)[1], before[1]);
+    }
+
+    /// A request for 65,535 registers was answered with 131,070 bytes.
+    #[test]
+    fn no_reply_is_longer_than_a_telegram() {
+        for function in [1, 2, 3, 4, 23, 100] {
+            for quantity in [1_u16, 125, 2000, 2001, 24_320, u16::MAX] {
+                let bytes = [&[1, function, 0, 0][..], &quantity.to_be_bytes(), &[0, 0]].concat();
+                let mut request =
+                    (PROTOCOLS[0].expect)(&bytes, Direction::Request, &Settings::default().frame);
+                walk::read(request.as_mut(), &bytes);
+                let all = replies(request.as_mut(), &Settings::default().frame.profibus);
+                assert!(all.len() > 3);
+                for mut reply in all {
+                    let bytes = walk::write(reply.frame.as_mut(), &Deviations::default());
+                    assert!(bytes.len() <= 256, "{} bytes for {quantity} of {function}", bytes.len());
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_may_become_anything() {
+        for protocol in PROTOCOLS.iter().filter(|protocol| buslens::frame::split::can_split(protocol)) {
+            let begins = |last| {
+                let place = Place { bytes: &[], last, in_step: true, waiting: None };
+                Splitter::new(&STANDARD).begins(protocol, place)
+            };
+            assert_eq!((begins(false), begins(true)), (Begins::More, Begins::Nothing), "{}", protocol.key);
+        }
+    }
+}
