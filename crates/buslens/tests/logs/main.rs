@@ -4,6 +4,5 @@ mod bad_files;
 mod conversations;
 mod flow;
 mod generator;
-mod kinds;
 mod layouts;
 mod noise;
