@@ -49,8 +49,8 @@ fn made(random: &mut Random) -> Vec<u8> {
     let protocol = PROTOCOLS[random.below(PROTOCOLS.len())];
     let Some(mut frame) = (protocol.carry)(random.byte(), cargo) else { return Vec::new() };
     walk::sample(frame.as_mut(), &mut |most| match most {
-        u64::MAX => random.next(),
-        most => random.next() % (most + 1),
+        u64::MAX => random.number(),
+        most => random.number() % (most + 1),
     });
     walk::write(frame.as_mut(), &Deviations::default())
 }
@@ -148,7 +148,7 @@ pub fn capture(random: &mut Random, seeds: &Seeds) -> Vec<u8> {
         sequence[way] = sequence[way].wrapping_add(gap);
         let packet = packet(way, sequence[way], &payload[..payload.len().min(300)]);
         sequence[way] = sequence[way].wrapping_add(payload.len() as u32);
-        let time = random.next() >> random.below(64);
+        let time = random.number() >> random.below(64);
         file.extend(if ng { block(time, &packet) } else { record(time, &packet) });
     }
     if random.one_in(2) {

@@ -15,7 +15,7 @@ pub fn overflow(telegram: &mut dyn Telegram, deviations: &Deviations) -> Option<
 #[derive(Clone, Debug, PartialEq)]
 pub struct Overflow {
     pub spec: &'static Spec,
-    /// The field's place, see [`Path`].
+    /// The field's place in the telegram, as a form's entry has it.
     pub path: String,
     pub number: u64,
     /// The largest that the bytes can say.
