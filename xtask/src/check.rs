@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::steps::{self, Result, Step};
-use crate::{build, page_tests, size, tools};
+use crate::{build, fuzz, page_tests, size, supply, tools};
 
 const STEPS: &[Step] = &[
     ("tools", tools),
@@ -11,7 +11,9 @@ const STEPS: &[Step] = &[
     ("clippy", clippy),
     ("clippy for wasm", clippy_for_wasm),
     ("the library without the page's libraries", lean_library),
+    ("licences and sources of the libraries", supply::check),
     ("tests", tests),
+    ("random inputs", fuzz::short),
     ("examples and benchmarks compile", examples),
     ("documentation", documentation),
     ("the page", page),

@@ -4,10 +4,14 @@
 
 mod build;
 mod check;
+mod fuzz;
+mod mutants;
 mod page_tests;
+mod reproducible;
 mod server;
 mod size;
 mod steps;
+mod supply;
 mod tools;
 mod watch;
 
@@ -23,6 +27,11 @@ Usage: cargo xtask <command>
   build              compiles the page into dist/, ready for any static web server
   serve [--port N]   builds, serves dist/ on this machine and rebuilds after each change
   test               runs every check, from the formatting to the page in a browser
+  fuzz SECONDS [--seed N] [--only TARGET]
+                     tries random inputs against the library's laws; --replay FILE tries one again
+  mutants [--sample N] [--seed S]
+                     changes the code here and there, and counts the changes that no test notices
+  reproducible       builds the page in two folders and compares every byte
   --help             this text";
 
 fn main() -> ExitCode {
@@ -36,9 +45,12 @@ fn main() -> ExitCode {
         ["build"] => |_| build::run(),
         ["serve"] | ["serve", "--port", _] => watch::serve,
         ["test"] => |_| check::run(),
+        ["fuzz", ref arguments @ ..] => return done(go_to_root().and_then(|()| fuzz::run(arguments))),
+        ["mutants", ref arguments @ ..] => return done(go_to_root().and_then(|()| mutants::run(arguments))),
+        ["reproducible"] => |_| reproducible::check(),
         // Started by `test` itself, see page_tests.rs.
         [page_tests::KEEP_DRIVER, driver] => return page_tests::keep_driver(driver),
-        [command @ ("build" | "serve" | "test"), ..] => {
+        [command @ ("build" | "serve" | "test" | "reproducible"), ..] => {
             return refuse(&format!("`{command}` is not followed by that."));
         }
         [unknown, ..] => return refuse(&format!("There is no command `{unknown}`.")),
@@ -47,7 +59,11 @@ fn main() -> ExitCode {
         return refuse(&format!("`{}` is not a port: 1 to 65535.", words[2]));
     };
 
-    match go_to_root().and_then(|()| work(port.get())) {
+    done(go_to_root().and_then(|()| work(port.get())))
+}
+
+fn done(result: Result) -> ExitCode {
+    match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(sentence) => {
             eprintln!("\n{sentence}");

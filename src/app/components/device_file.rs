@@ -67,7 +67,7 @@ fn text(settings: &Settings) -> Markup {
     let text = settings::write(settings);
     html! {
         h3 { "Not as delivered" }
-        @if text.is_empty() { p { "Nothing: everything is as the devices come from their makers." } }
+        @if settings::changed(settings).is_empty() { p { "Nothing: everything is as the devices come from their makers." } }
         @else { pre { (text) } }
     }
 }

@@ -81,7 +81,7 @@ fn row(
 ) -> Markup {
     /// More bytes do not fit into the column; the strip shows them.
     const SHOWN: usize = 12;
-    let span = field.span;
+    let (span, own) = (field.span, field.span.of(bytes));
     let within = !field.children.is_empty();
     // The meaning tells what is set: the bits are for those who want to know more.
     let open = if has_parts { "false" } else { "true" };
@@ -100,8 +100,8 @@ fn row(
                 }
             }
             td.bytes role="cell" {
-                (hex(&span.of(bytes)[..span.len().min(SHOWN)]))
-                @if span.len() > SHOWN { " …" }
+                (hex(&own[..own.len().min(SHOWN)]))
+                @if own.len() > SHOWN { " …" }
             }
             td.value role="cell" { (field.value_text()) }
             td.meaning role="cell" {

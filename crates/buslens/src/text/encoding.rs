@@ -43,15 +43,43 @@ impl Encoding {
         matches!(self, Self::Utf16LittleEndian | Self::Utf16BigEndian)
     }
 
-    /// The text as bytes of which each digit is one: UTF-16 as UTF-8, with � for halves of characters.
+    /// How many of `bytes` are whole characters, when more may come.
+    pub fn whole(self, bytes: &[u8]) -> usize {
+        let even = bytes.len() & !1;
+        let last = bytes.get(even.wrapping_sub(2)..even).unwrap_or_default();
+        let high = match self {
+            Self::Utf16LittleEndian => last.last(),
+            Self::Utf16BigEndian => last.first(),
+            Self::Bytes | Self::Binary => return bytes.len(),
+        };
+        // The first half of a character that takes two units.
+        if high.is_some_and(|high| matches!(high, 0xD8..=0xDB)) { even - 2 } else { even }
+    }
+
+    /// The beginning of a text as bytes of which each digit is one: UTF-16 as UTF-8, without its mark
+    /// and with � for halves of characters.
     pub fn text(self, bytes: &[u8]) -> Cow<'_, [u8]> {
+        let mark = match self {
+            Self::Utf16LittleEndian => [0xFF, 0xFE],
+            Self::Utf16BigEndian => [0xFE, 0xFF],
+            Self::Bytes | Self::Binary => return Cow::Borrowed(bytes),
+        };
+        let mut unmarked = bytes;
+        while let Some(rest) = unmarked.strip_prefix(&mark) {
+            unmarked = rest;
+        }
+        self.further(unmarked)
+    }
+
+    /// The same of what comes behind the beginning.
+    pub fn further(self, bytes: &[u8]) -> Cow<'_, [u8]> {
         let unit: fn([u8; 2]) -> u16 = match self {
             Self::Utf16LittleEndian => u16::from_le_bytes,
             Self::Utf16BigEndian => u16::from_be_bytes,
             Self::Bytes | Self::Binary => return Cow::Borrowed(bytes),
         };
         let (pairs, _) = bytes.as_chunks();
-        let units = pairs.iter().map(|pair| unit(*pair)).skip_while(|unit| *unit == 0xFEFF);
+        let units = pairs.iter().map(|pair| unit(*pair));
         let mut utf8 = Vec::with_capacity(bytes.len() / 2);
         for c in char::decode_utf16(units) {
             let c = c.unwrap_or(char::REPLACEMENT_CHARACTER);
@@ -81,5 +109,20 @@ mod tests {
             assert_eq!(found, expected, "{text}");
             assert_eq!(found.text(&bytes), text.trim_start_matches('\u{FEFF}').as_bytes());
         }
+    }
+
+    #[test]
+    fn characters_of_two_units_stay_whole() {
+        for (encoding, text) in [
+            (Encoding::Utf16LittleEndian, [0x3D, 0xD8, 0x00, 0xDE, 0x41, 0x00]),
+            (Encoding::Utf16BigEndian, [0xD8, 0x3D, 0xDE, 0x00, 0x00, 0x41]),
+        ] {
+            let whole: Vec<usize> = (0..=6).map(|length| encoding.whole(&text[..length])).collect();
+            assert_eq!(whole, [0, 0, 0, 0, 4, 4, 6], "{encoding:?}");
+            assert_eq!(encoding.text(&text), "\u{1F600}A".as_bytes());
+        }
+        assert_eq!(Encoding::Bytes.whole(b"abc"), 3);
+        // A mark within a text is a character of it.
+        assert_eq!(Encoding::Utf16BigEndian.further(&[0xFE, 0xFF]), "\u{FEFF}".as_bytes());
     }
 }

@@ -1,6 +1,6 @@
 use crate::device::{self, Profile};
 use crate::dialogue::{Certainty, Choice, Guess};
-use crate::field::{Argument, Direction, Severity, Span};
+use crate::field::{self, Argument, Direction, Severity, Span};
 use crate::frame::{self, Content, Frame, Protocol, Speaker, Verdict};
 use crate::message;
 use crate::modbus::Pdu;
@@ -254,7 +254,11 @@ impl Report {
         if self.telegrams[request].verdict == Verdict::Wrong {
             return false;
         }
-        let (frame, _) = self.read(request);
+        let (frame, reading) = self.read(request);
+        // The value that a telegram ends in is none.
+        if field::problems(&reading.fields).iter().any(|problem| problem.code == "truncated") {
+            return false;
+        }
         let Content::Modbus { pdu, .. } = frame.content() else { return false };
         let Some(access) = pdu.body.access().filter(|access| access.write) else { return false };
         let Some(start) = access.start else { return false };

@@ -576,7 +576,11 @@ impl Traffic {
             awaited || seen || self.splitter.rtu_lengths(bytes).contains(&Some(bytes.len()))
         };
         match like {
-            true => self.push(index, bytes, from, kept, self.main(index), Verdict::Wrong, Role::Plain),
+            true => {
+                // Of a check that is right, only the length is wrong.
+                let main = self.main(index);
+                self.push(index, bytes, from, kept, main, (main.verdict)(bytes), Role::Plain);
+            }
             false => self.discard(index, bytes, from, kept),
         }
     }

@@ -215,6 +215,7 @@ impl Traffic {
                 return true;
             }
             let reading = evidence::ascii(&telegram, &self.splitter)
+                .or_else(|| (!facts.colon).then(|| evidence::characters(&telegram)))
                 .filter(|_| !facts.column && (known || telegram.len() > 2));
             let Some(reading) = reading else { return false };
             self.add_weak(index, &telegram, 0, facts, Some(reading));
@@ -369,17 +370,9 @@ impl Traffic {
 
     /// Whether a telegram that begins so is longer.
     fn is_beginning(&self, index: usize, bytes: &[u8]) -> bool {
-        /// Every function's length is told by so many bytes.
-        const TELLING: usize = 12;
         let [unit, function, ..] = *bytes else { return false };
         let awaited = self.waiting_at(index).is_some_and(|it| (it.unit, it.function) == (unit, function));
-        let longer = |length: Option<usize>| match length {
-            Some(length) => length > bytes.len(),
-            None => bytes.len() < TELLING && function & EXCEPTION == 0,
-        };
-        let rtu = unit <= 247
-            && self.splitter.knows(function)
-            && self.splitter.rtu_lengths(bytes).into_iter().any(longer);
+        let rtu = unit <= 247 && self.splitter.is_beginning(bytes);
         let fdl = profibus_fdl::Fdl::length(bytes).is_some_and(|length| length > bytes.len())
             && bytes.len() > 3
             && bytes[0] == profibus_fdl::SD2;

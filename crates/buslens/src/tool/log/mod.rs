@@ -244,11 +244,13 @@ impl Log {
             Way::Text(reader) => reader.push(part, &mut take),
             Way::Utf16 { reader, encoding, odd } => {
                 odd.extend_from_slice(part);
-                let rest = odd.split_off(odd.len() & !1);
+                let rest = odd.split_off(encoding.whole(odd));
                 let whole = std::mem::replace(odd, rest);
-                let text = encoding.text(&whole);
+                let transcoded = transcoded.get_or_insert_default();
+                let text =
+                    if transcoded.is_empty() { encoding.text(&whole) } else { encoding.further(&whole) };
                 reader.push(&text, &mut take);
-                transcoded.get_or_insert_default().extend_from_slice(&text);
+                transcoded.extend_from_slice(&text);
             }
             Way::Stream => {
                 // Browsers make code quick between two calls of it, not within one.
@@ -284,11 +286,17 @@ impl Log {
 
     /// The file ends, or is not read any further.
     pub fn finish(&mut self) {
-        let Self { input, traffic, unread, typed, ports, .. } = self;
+        let Self { input, traffic, unread, typed, ports, transcoded, .. } = self;
         let mut take = |event: Event<'_>| {
             *typed &= is_typed(&event);
             self::take(event, traffic, unread, ports);
         };
+        if let Way::Utf16 { reader, encoding, odd } = input {
+            // Half a character at the very end.
+            let text = encoding.further(odd);
+            reader.push(&text, &mut take);
+            transcoded.get_or_insert_default().extend_from_slice(&text);
+        }
         match input {
             Way::Text(reader) | Way::Utf16 { reader, .. } => {
                 reader.finish(&mut take);
@@ -322,6 +330,25 @@ impl Log {
     /// How many directions of connections carry no telegrams.
     fn foreign(&self) -> usize {
         self.traffic.foreign()
+    }
+
+    /// How many connections of a capture were not read, since there are too many.
+    fn left_out(&self) -> usize {
+        #[cfg(feature = "captures")]
+        if let Some(capture) = self.capture() {
+            return capture.left_out();
+        }
+        0
+    }
+
+    /// The capture that is read, or that a text shows.
+    #[cfg(feature = "captures")]
+    fn capture(&self) -> Option<&crate::capture::Capture> {
+        match &self.input {
+            Way::Capture(capture) => Some(capture),
+            Way::Packets(packets) => Some(packets.capture()),
+            _ => None,
+        }
     }
 
     /// What the file is.
@@ -368,16 +395,9 @@ impl Log {
     /// What tells several lines or connections apart, in the order of [`Entry::port`].
     pub fn port_name(&self, port: u16) -> Option<String> {
         #[cfg(feature = "captures")]
-        {
-            let capture = match &self.input {
-                Way::Capture(capture) => Some(&**capture),
-                Way::Packets(packets) => Some(packets.capture()),
-                _ => None,
-            };
-            if let Some(capture) = capture {
-                let connection = capture.connections().get(usize::from(port))?;
-                return Some(format!("{} – {}", connection.client, connection.server));
-            }
+        if let Some(capture) = self.capture() {
+            let connection = capture.connections().get(usize::from(port))?;
+            return Some(format!("{} – {}", connection.client, connection.server));
         }
         self.ports.names.get(usize::from(port).checked_sub(1)?).cloned()
     }
