@@ -166,7 +166,9 @@ impl Traffic {
                 let telegram = &bytes[at..at + length];
                 let known =
                     telegram.get(modbus_tcp::HEADER).is_some_and(|function| self.splitter.knows(*function));
-                if protocol.is(&modbus_tcp::PROTOCOL) && !known && !plain {
+                // A request of RTU for two registers from 0 looks like a header with a function behind it.
+                let told = known || (plain && telegram.len() > modbus_tcp::HEADER + 1);
+                if protocol.is(&modbus_tcp::PROTOCOL) && !told {
                     break;
                 }
                 let checked = (protocol.verdict)(telegram);
