@@ -6,7 +6,7 @@
 use super::{Cargo, Content, Fit, Frame, Protocol, Settings, Speaker, Verdict};
 use crate::field::{Direction, Message};
 use crate::message;
-use crate::profibus::{Body, Kind, parameter_channel};
+use crate::profibus::{self, Body, Kind, parameter_channel};
 use crate::walk::{Telegram, Walk, Walker};
 
 pub static PARAMETER_CHANNEL: Protocol = Protocol {
@@ -134,7 +134,9 @@ struct Bare {
 
 impl Bare {
     fn expect(kind: &'static Kind, settings: &Settings) -> Box<dyn Frame> {
-        Box::new(Self { kind, body: (kind.new)(&settings.profibus) })
+        // Nothing but the layout tells where such bytes end.
+        let settings = profibus::Settings { told: true, ..settings.profibus.clone() };
+        Box::new(Self { kind, body: (kind.new)(&settings) })
     }
 }
 

@@ -1,11 +1,12 @@
 use super::decode::Report;
-use crate::device::{self, Process, Profile, Registers, Said};
+use crate::device::{self, PROFILES, Process, Profile, Registers, Said};
 use crate::field::{self, Check, Direction, Field, Message, Order, Problem, Span, Spec, Value, hex_value};
 use crate::frame::{Content, Verdict};
 use crate::message;
-use crate::modbus::{Access, EXCEPTION, Pdu, Server};
+use crate::modbus::{Access, DIALECTS, Dialect, EXCEPTION, Pdu, Server, exceptions};
 use crate::profibus::jobs::{State, Step};
-use crate::profibus::{Body, Channel, Service, Side};
+use crate::profibus::{Body, Channel, Service, Side, parameter_channel};
+use crate::walk;
 
 /// Everything about one telegram.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +30,8 @@ pub struct Detail {
     pub values: Vec<u32>,
     /// The values are bits: coils or discrete inputs.
     pub coils: bool,
+    /// It writes what it names.
+    pub writes: bool,
     /// Where 16-bit registers or words of process data stand in it.
     pub registers: Option<Span>,
     /// The parameter channel in it.
@@ -85,6 +88,7 @@ impl Report {
             count: None,
             values: Vec::new(),
             coils: false,
+            writes: false,
             registers: None,
             channel: None,
             step: telegram.step.clone(),
@@ -92,6 +96,17 @@ impl Report {
             fields: reading.fields,
         };
         let device = self.options.device.map(|profile| (profile, &self.settings(index).device));
+        if let Content::Profibus { body, .. } = frame.content()
+            && let Some(channel) = body.channel()
+        {
+            let sets = match device {
+                Some((profile, _)) if profile.ident.is_some() => {
+                    profile.has_sets(channel.index, channel.subindex)
+                }
+                _ => parameter_channel::has_sets(channel.index),
+            };
+            refine(&mut detail.fields, parameter_channel::subindex_spec(sets));
+        }
         match frame.content() {
             Content::Modbus { server, pdu } => {
                 if let Some((profile, settings)) = device {
@@ -99,6 +114,11 @@ impl Report {
                 }
                 detail.unit = server.unit().filter(|_| !bytes.is_empty());
                 detail.tell_pdu(server, pdu);
+                detail.device.problems.extend(self.other_layout(index, pdu, &detail.fields));
+                if let Some(code) = pdu.body.exception() {
+                    let asked = telegram.answers.and_then(|request| self.detail(request));
+                    detail.tell_refusal(server, code, asked, device.map(|(profile, _)| profile));
+                }
                 detail.registers = detail.register_place(pdu);
             }
             Content::Profibus { slave, kind, body } => {
@@ -107,7 +127,9 @@ impl Report {
                         Some(slave) => message!("station {n}", n = slave),
                         None => message!("the slave"),
                     };
-                    detail.ask_parameters(profile, settings, &who, body, bytes);
+                    // What is only looked at is no job.
+                    let looked_at = kind.sap.is_some() && kind.direction == Direction::Response;
+                    detail.ask_parameters(profile, settings, &who, (body, looked_at), bytes);
                 }
                 detail.unit = slave;
                 detail.registers = detail.place(|spec| ["outputs", "inputs"].contains(&spec.key));
@@ -116,6 +138,36 @@ impl Report {
             Content::Nothing(spec) => detail.tell_kind(spec, Message::term(spec.label)),
         }
         Some(detail)
+    }
+}
+
+impl Report {
+    /// The layout that would make right what is wrong with a telegram of functions that have several.
+    fn other_layout(&self, index: usize, pdu: &Pdu, fields: &[Field]) -> Option<Problem> {
+        let telegram = &self.telegrams[index];
+        let by_itself = |problem: &&Problem| problem.code != "not-as-asked";
+        let wrong = field::problems(fields).into_iter().any(|problem| by_itself(&problem));
+        if !wrong || telegram.verdict == Verdict::Wrong {
+            return None;
+        }
+        let direction = telegram.guess.direction;
+        let has = |dialect: &&&'static Dialect| {
+            dialect.kinds.iter().any(|kind| (kind.function, kind.direction) == (pdu.function, direction))
+        };
+        let mut settings = self.settings(index).frame.clone();
+        let others = DIALECTS.iter().filter(has).filter(|other| other.key != settings.dialect.key);
+        let right = others.copied().find(|other| {
+            settings.dialect = other;
+            let bytes = &telegram.line.bytes;
+            let mut frame = (telegram.choice.protocol.expect)(bytes, direction, &settings);
+            field::problems(&walk::read(frame.as_mut(), bytes).fields).is_empty()
+        })?;
+        let span = Span::new(0, telegram.line.bytes.len());
+        let message = message!(
+            "laid out as “{layout}” it would be right: set that under Devices if the device speaks so",
+            layout = field::Argument::Term(right.label)
+        );
+        Some(Problem::warning("other-layout", span, message))
     }
 }
 
@@ -131,7 +183,8 @@ impl Detail {
         let registers = |access: &Access<'_>| access.start.is_some() && !access.table.holds_switches();
         let Some(access) = pdu.body.access().filter(registers) else { return };
         let values = big_endian(&access);
-        let said = profile.registers(&device_registers(&access, &values, &self.fields), settings);
+        let said =
+            profile.registers(&device_registers(&access, pdu.is_single(), &values, &self.fields), settings);
         self.device.problems.extend(said.problems);
         self.device.blocks = said.blocks;
     }
@@ -143,11 +196,11 @@ impl Detail {
         profile: &'static Profile,
         settings: &device::Settings,
         who: &Message,
-        body: &dyn Body,
+        (body, looked_at): (&dyn Body, bool),
         bytes: &[u8],
     ) {
         let mut said = None;
-        if let Some(channel) = body.channel() {
+        if let Some(channel) = body.channel().filter(|_| !looked_at) {
             let parameter = self.ask_parameter(profile, channel);
             said = Some(channel_sentence(channel, who, parameter.sentence()));
             self.device.blocks.extend(parameter.blocks);
@@ -166,6 +219,7 @@ impl Detail {
                 };
                 said = Some(match said {
                     Some(said) => message!("{said}; {things}", said = said, things = things),
+                    None if looked_at => message!("{who} has {things}", who = who.clone(), things = things),
                     None => message!("{who}, {things}", who = who.clone(), things = things),
                 });
             }
@@ -238,6 +292,72 @@ impl Detail {
         self.tell_kind(spec, Message::term(spec.label));
     }
 
+    /// What a server refuses to do, in the device's words, and why.
+    fn tell_refusal(
+        &mut self,
+        server: Server,
+        code: u8,
+        asked: Option<Self>,
+        profile: Option<&'static Profile>,
+    ) {
+        let named = |spec: &'static Spec| spec.name(code.into());
+        let own = profile.and_then(|profile| profile.exceptions).filter(|spec| named(spec).is_some());
+        let standard = exceptions().iter().find(|name| name.value == u64::from(code));
+        if let Some(spec) = own {
+            refine(&mut self.fields, spec);
+        }
+        let hex = hex_value(code.into(), 1);
+        let name = own.and_then(named).or(standard);
+        let why = match (name, profile) {
+            (Some(name), _) => {
+                message!("exception {code}, {name}", code = code, name = field::Argument::Term(name.label))
+            }
+            (None, Some(_)) => {
+                message!(
+                    "exception {code} ({hex}), which neither the standard nor the manual defines",
+                    code = code,
+                    hex = hex
+                )
+            }
+            (None, None) => {
+                let others = PROFILES.iter().filter_map(|other| Some((other, named(other.exceptions?)?)));
+                match others.into_iter().next() {
+                    Some((other, name)) => message!(
+                        "exception {code} ({hex}), which the standard does not define; of a {device} it is: {name}",
+                        code = code,
+                        hex = hex,
+                        device = field::Argument::Term(other.label),
+                        name = field::Argument::Term(name.label)
+                    ),
+                    None => message!(
+                        "exception {code} ({hex}), which the standard does not define",
+                        code = code,
+                        hex = hex
+                    ),
+                }
+            }
+        };
+        let who = server.name();
+        let things = asked.as_ref().and_then(|asked| asked.device.sentence());
+        self.said = match (things, asked.as_ref().is_some_and(|asked| asked.writes)) {
+            (Some(things), false) => {
+                message!("{who} refuses to give {things}: {why}", who = who, things = things, why = why)
+            }
+            (Some(things), true) => {
+                message!("{who} refuses to write {things}: {why}", who = who, things = things, why = why)
+            }
+            (None, _) => message!("{who} refuses: {why}", who = who, why = why),
+        };
+        // What the manual had to say of the request is why.
+        if let Some(problem) = asked.as_ref().and_then(|asked| asked.device.problems().next()) {
+            self.said = message!(
+                "{said}; of the request: {problem}",
+                said = self.said.clone(),
+                problem = problem.message.clone()
+            );
+        }
+    }
+
     /// What a PDU says.
     fn tell_pdu(&mut self, server: Server, pdu: &Pdu) {
         let spec = &pdu.kind.spec;
@@ -270,6 +390,7 @@ impl Detail {
         self.function = function.map(|function| function & !EXCEPTION);
         self.exception = pdu.body.exception();
         self.start = access.and_then(|access| access.start);
+        self.writes = write;
         self.coils = access.is_some_and(|access| access.table.holds_switches());
         self.count = access.map(|access| access.count);
         self.values = access.map_or(Vec::new(), |access| access.values.to_vec());
@@ -293,6 +414,16 @@ fn channel_sentence(channel: &Channel, who: &Message, things: Option<Message>) -
             message!("{who} confirms what it wrote: {things}", who = who, things = things)
         }
         (_, Service::None | Service::Both) => plain,
+    }
+}
+
+/// Gives the field that is called so the words of `spec`: what only other fields, or the device, tell.
+fn refine(fields: &mut [Field], spec: &'static Spec) {
+    for field in fields {
+        if field.spec == spec {
+            field.spec = spec;
+        }
+        refine(&mut field.children, spec);
     }
 }
 
@@ -322,7 +453,12 @@ fn big_endian(access: &Access<'_>) -> Vec<u8> {
 
 /// Registers as a device's table takes them: with the place of their values in the telegram, or of
 /// what names them.
-fn device_registers<'a>(access: &Access<'_>, values: &'a [u8], fields: &[Field]) -> Registers<'a> {
+fn device_registers<'a>(
+    access: &Access<'_>,
+    single: bool,
+    values: &'a [u8],
+    fields: &[Field],
+) -> Registers<'a> {
     let place = |wanted: &'static Spec| place(fields, |spec| std::ptr::eq(spec, wanted));
     let table = access.table;
     let given = place(&table.values).or(place(&table.value)).filter(|_| !access.values.is_empty());
@@ -332,6 +468,7 @@ fn device_registers<'a>(access: &Access<'_>, values: &'a [u8], fields: &[Field])
         count: access.count,
         width: table.width,
         access: if access.write { device::Access::Write } else { device::Access::Read },
+        single,
         values: given.is_some().then_some(values),
         span,
     }

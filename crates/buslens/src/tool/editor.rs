@@ -3,11 +3,12 @@
 use super::build::{build, does_not_carry, slot};
 use super::link::Link;
 use super::{Change, Entries, Offer, Options, Settings, decode, offers, replies};
-use crate::device::{Draft, Task};
+use crate::device::{Draft, Profile, Task};
 use crate::field::{Argument, Direction, Message, Role, Spec, hex, problems};
 use crate::frame::{self, Cargo, Frame, PROTOCOLS, Protocol};
 use crate::message;
 use crate::modbus::Pdu;
+use crate::profibus::{self, ident};
 use crate::walk::form::Content;
 use crate::walk::{self, Deviations, Telegram, Walk, Walker};
 
@@ -25,6 +26,8 @@ use crate::walk::{self, Deviations, Telegram, Walk, Walker};
 pub struct Editor {
     pub protocol: &'static Protocol,
     pub direction: Direction,
+    /// Whose telegram it is, where that is known.
+    pub device: Option<&'static Profile>,
     subject: Subject,
     entries: Entries,
 }
@@ -66,7 +69,9 @@ impl Editor {
                 (kind.direction, Subject::Telegram(carried(Cargo::Modbus(pdu))?))
             }
             Offer::Service(kind) => {
-                let body = (kind.new)(&settings.frame.profibus);
+                // Of the only device that is known here, unless another is.
+                let ident = settings.frame.profibus.ident.or(Some(ident::KEB_F5));
+                let body = (kind.new)(&profibus::Settings { ident, ..settings.frame.profibus.clone() });
                 (kind.direction, Subject::Telegram(carried(Cargo::Profibus(kind, body))?))
             }
             Offer::Task(task) => {
@@ -93,7 +98,7 @@ impl Editor {
             let before = self.mistakes(settings);
             self.edit(&path, Change::Add);
             if self.mistakes(settings) >= before {
-                self.edit(&path, Change::Remove(0));
+                self.edit(&path, Change::RemoveLast);
             }
         }
     }
@@ -164,7 +169,11 @@ impl Editor {
         direction: Direction,
     ) -> Self {
         let entries = Entries::of(subject.telegram(), deviations);
-        Self { protocol, direction, subject, entries }
+        let device = match &subject {
+            Subject::Task(asking) => Some(asking.task.profile),
+            Subject::Telegram(_) => None,
+        };
+        Self { protocol, direction, device, subject, entries }
     }
 
     /// What can be edited, and what was typed that does not fit.
@@ -224,8 +233,10 @@ impl Editor {
     pub fn open_all(&mut self) -> Result<(), Message> {
         if let Subject::Task(asking) = &mut self.subject {
             let frame = asking.build(self.protocol)?;
+            let device = self.device;
             *self =
                 Self::with(Subject::Telegram(frame), Deviations::default(), self.protocol, self.direction);
+            self.device = device;
         }
         Ok(())
     }
@@ -252,11 +263,11 @@ impl Editor {
 
     /// What can come back, as bytes with their names; nothing for a response.
     pub fn replies(&mut self, settings: &Settings) -> Vec<(Message, Vec<u8>)> {
-        let profibus = &settings.frame.profibus;
+        let (profibus, device) = (&settings.frame.profibus, self.device);
         let replies = match &mut self.subject {
-            Subject::Telegram(frame) => replies(frame.as_mut(), profibus),
+            Subject::Telegram(frame) => replies(frame.as_mut(), profibus, device),
             Subject::Task(asking) => match asking.build(self.protocol) {
-                Ok(mut frame) => replies(frame.as_mut(), profibus),
+                Ok(mut frame) => replies(frame.as_mut(), profibus, device),
                 Err(_) => Vec::new(),
             },
         };
