@@ -2,7 +2,7 @@ use std::fmt::Write as _;
 
 use buslens::device::Profile;
 use buslens::field::Field;
-use buslens::tool::{Detail, Options, Protocol, Report, decode, settings};
+use buslens::tool::{Detail, Options, Protocol, Report, decode, search, settings};
 
 use super::{lines, profile, write_lines};
 
@@ -85,6 +85,7 @@ impl Row {
         let telegrams = self.cell(3).replace(" / ", "\n");
         match how {
             "lengths" => self.lengths(),
+            "search" => self.found(&telegrams),
             "display" => self.displayed(&telegrams),
             "printed" => self.printed(rest, &telegrams),
             _ => {
@@ -105,6 +106,15 @@ impl Row {
         }
         options.settings = settings::read(&lines.join("\n")).expect("settings");
         options
+    }
+
+    /// What comes first for each of the words that are typed into Build.
+    fn found(&self, words: &str) -> Said {
+        let best = |word: &str| {
+            let found = search(word, Some(self.device()));
+            found.first().map_or_else(|| "nothing".to_owned(), |found| found.label().sentence())
+        };
+        Said { sentence: words.lines().map(best).collect::<Vec<_>>().join("; "), ..Said::default() }
     }
 
     /// How many of the lengths in the cell (`index:subindex=bytes`) the table has.

@@ -11,6 +11,7 @@
 
 mod builds;
 mod facts;
+mod words;
 
 use std::path::PathBuf;
 
@@ -33,7 +34,18 @@ fn every_fact_of_the_manuals_is_right() {
     assert_eq!((facts.len(), builds.len()), (882, 84), "no fact is lost");
 }
 
-/// Prints like the test above for whoever looks at the output of `cargo xtask test`.
+/// What is typed into Build in the manuals' words, and in a person's.
+#[test]
+fn what_a_person_means_comes_first() {
+    let rows = words::rows();
+    let wrong: Vec<String> = rows.iter().filter_map(words::wrong).collect();
+    if std::env::var_os("BLESS").is_some() {
+        words::bless(&rows);
+    }
+    println!("{} of {} words and sentences", rows.len() - wrong.len(), rows.len());
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
 fn table(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/manuals").join(format!("{name}.tsv"))
 }
