@@ -137,8 +137,11 @@ pub struct Area {
     /// have a name there.
     pub reads: Option<&'static Spec>,
     /// Adds to what is to be written what belongs to it.
-    pub completed: Option<fn(&[u8]) -> Vec<u8>>,
+    pub completed: Option<Complete>,
 }
+
+/// Takes what is filled in and gives what is to be written.
+pub type Complete = fn(&[u8]) -> Vec<u8>;
 
 /// Addresses among those of an area that hold something else.
 #[derive(Clone, Copy, Debug)]
@@ -502,7 +505,7 @@ impl Area {
         self
     }
 
-    pub const fn completed(mut self, completed: fn(&[u8]) -> Vec<u8>) -> Self {
+    pub const fn completed(mut self, completed: Complete) -> Self {
         self.completed = Some(completed);
         self
     }

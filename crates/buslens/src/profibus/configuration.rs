@@ -185,7 +185,7 @@ impl Modules {
                 message!("the parameter channel of a KEB F5 must be the first module, as B7h"),
             );
         }
-        if size(LENGTH.of(raw), raw) % 2 != 0 && size(LENGTH.of(raw), raw) > 1 {
+        if !size(LENGTH.of(raw), raw).is_multiple_of(2) && size(LENGTH.of(raw), raw) > 1 {
             w.remark(
                 &MODULE,
                 Severity::Warning,

@@ -76,7 +76,8 @@ pub fn decode(text: &str, mut options: Options) -> Report {
     let mut turns = dialogue::turns(&leanings).into_iter();
     let mut pairing = Pairing::default();
     for (line, choice) in telegrams {
-        report.add(line, choice, &mut turns, &mut pairing);
+        let said = said(text, &line);
+        report.add(line, choice, said, &mut turns, &mut pairing);
     }
     report.follow();
     report
@@ -243,6 +244,7 @@ impl Report {
         &mut self,
         line: Line,
         choice: Choice,
+        said: Option<Direction>,
         turns: &mut dyn Iterator<Item = Guess>,
         pairing: &mut Pairing,
     ) {
@@ -252,9 +254,16 @@ impl Report {
             Speaker::Turns(_) => turns.next(),
             _ => None,
         };
-        let guess = match (self.options.direction, turn) {
+        let guess = match (self.options.direction.or(said), turn) {
             (Some(direction), _) => {
-                Guess { direction, certainty: Certainty::Certain, reason: message!("set by hand") }
+                let by_hand = self.options.direction.is_some();
+                let reason = if by_hand { message!("set by hand") } else { message!("the text says so") };
+                Guess { direction, certainty: Certainty::Certain, reason }
+            }
+            // A slave repeats what it wrote: byte for byte, where it sets the length, too.
+            (None, Some(turn)) if turn.certainty != Certainty::Certain && self.repeats(protocol, &line) => {
+                let reason = message!("it repeats the request before it, as a confirmation does");
+                Guess { direction: Direction::Response, certainty: Certainty::Likely, reason }
             }
             (None, Some(turn)) => turn,
             (None, None) => self.guess(protocol, &line.bytes, pairing),
@@ -286,6 +295,17 @@ impl Report {
             latency: None,
             comment: String::new(),
         });
+    }
+
+    /// Whether a job that waits for its confirmation is repeated: only the request changes nothing.
+    fn repeats(&self, protocol: &Protocol, line: &Line) -> bool {
+        self.telegrams.last().is_some_and(|before| {
+            before.line.bytes == line.bytes
+                && before.choice.protocol.is(protocol)
+                && before.guess.direction == Direction::Request
+                && Channel::read(&line.bytes, Direction::Request, &self.options.settings.frame.profibus).service()
+                    == Service::Write
+        })
     }
 
     /// Who speaks: by the bytes, and where those leave it open, by the request that waits.
@@ -513,6 +533,14 @@ fn learn_setup(body: &dyn Body, settings: &mut profibus::Settings) {
             (settings.layout, settings.told) = (profibus::Layout::default(), false);
         }
     }
+}
+
+/// Who speaks, by the word before the bytes.
+fn said(text: &str, line: &Line) -> Option<Direction> {
+    let first = line.places.first()?.from;
+    let before = text.get(line.span.from..first)?.trim_start().to_ascii_lowercase();
+    let word = before.trim_end_matches([':', ' ']);
+    [Direction::Request, Direction::Response].into_iter().find(|direction| word == direction.key())
 }
 
 /// How a device is known to be set up from some telegram on.
