@@ -303,7 +303,8 @@ impl Report {
             before.line.bytes == line.bytes
                 && before.choice.protocol.is(protocol)
                 && before.guess.direction == Direction::Request
-                && Channel::read(&line.bytes, Direction::Request, &self.options.settings.frame.profibus).service()
+                && Channel::read(&line.bytes, Direction::Request, &self.options.settings.frame.profibus)
+                    .service()
                     == Service::Write
         })
     }

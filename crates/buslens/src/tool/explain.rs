@@ -1,5 +1,6 @@
 use super::decode::{Options, Report};
-use crate::dialogue::{self, Certainty, Context, Guess, Hypothesis, chance_of_change, hypotheses};
+use crate::device::{Misprint, PROFILES};
+use crate::dialogue::{self, Cause, Certainty, Context, Guess, Hypothesis, chance_of_change, hypotheses};
 use crate::field::{self, Message, Span};
 use crate::frame::{Frame, Speaker, Verdict, modbus_rtu};
 use crate::message;
@@ -35,6 +36,13 @@ impl Explanation {
 /// More are not worth reading.
 const MOST: usize = 10;
 
+/// What a manual means that prints these bytes.
+fn misprint(bytes: &[u8]) -> Option<Hypothesis> {
+    let mut misprints = PROFILES.iter().flat_map(|profile| profile.misprints);
+    let Misprint { section, slips, right, .. } = misprints.find(|misprint| misprint.printed == bytes)?;
+    Some(Hypothesis::known(Cause::Misprint { section, slips }, bytes, right.to_vec()))
+}
+
 impl Report {
     /// What may have happened to telegram `index`, best first: what leaves nothing wrong before what
     /// does; then by how often such a thing happens and in how many ways it could have. Empty where
@@ -51,7 +59,12 @@ impl Report {
         let context = Context { request: before, others: &others, digit_lost };
         let asked = telegram.answers.map(|request| self.read(request).0);
         let mut found: Vec<Explanation> = Vec::new();
+        let printed = misprint(&telegram.line.bytes);
+        let known = printed.as_ref().map(|known| known.bytes.clone());
         for hypothesis in hypotheses(&telegram.line.bytes, telegram.choice.protocol, context) {
+            if known.as_ref() == Some(&hypothesis.bytes) {
+                continue;
+            }
             let explanation = self.explain(index, hypothesis, asked.as_deref());
             let rank = |one: &Explanation| {
                 // Where nothing else is wrong, a device that knows the registers says more than chance.
@@ -63,6 +76,10 @@ impl Report {
                 found.insert(at, explanation);
                 found.truncate(MOST);
             }
+        }
+        if let Some(printed) = printed {
+            found.insert(0, self.explain(index, printed, asked.as_deref()));
+            found.truncate(MOST);
         }
         found
     }

@@ -557,10 +557,13 @@ impl<'a> Fitting<'a> {
             if let Held::Parts(parts) = area.content {
                 labels.extend(parts.iter().map(|part| part.spec.label));
                 let floats = parts.iter().filter(|part| part.spec.format == crate::field::Format::Float);
-                labels
-                    .extend(floats.map(|part| {
-                        if part.registers == 4 { "double float 64 bit" } else { "float 32 bit" }
-                    }));
+                labels.extend(
+                    floats.map(
+                        |part| {
+                            if part.registers == 4 { "double float 64 bit" } else { "float 32 bit" }
+                        },
+                    ),
+                );
             } else if area.spec.format == crate::field::Format::Float {
                 labels.push(if area.stride == 4 { "double float 64 bit" } else { "float 32 bit" });
             }
