@@ -548,7 +548,7 @@ impl Profile {
 }
 
 impl Block {
-    fn new(field: Field, from: u16, to: u16, hex: bool) -> Self {
+    pub(super) fn new(field: Field, from: u16, to: u16, hex: bool) -> Self {
         Self { field, from, to, hex, id: "", note: None, stands_for: None, facts: Vec::new() }
     }
 }

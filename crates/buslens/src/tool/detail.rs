@@ -1,5 +1,7 @@
+use super::blocks::{BlockReading, blocks};
 use super::decode::Report;
 use crate::device::{self, PROFILES, Process, Profile, Registers, Said};
+use crate::dialogue::Certainty;
 use crate::field::{self, Check, Direction, Field, Message, Order, Problem, Span, Spec, Value, hex_value};
 use crate::frame::{Content, Verdict};
 use crate::message;
@@ -73,6 +75,9 @@ impl Report {
     /// Reads the fields of telegram `index`.
     pub fn detail(&self, index: usize) -> Option<Detail> {
         let telegram = self.telegrams.get(index)?;
+        if let Some(block) = self.block(index) {
+            return Some(Detail::of_block(block));
+        }
         let (frame, reading) = self.read(index);
         let bytes = &telegram.line.bytes;
         let mut detail = Detail {
@@ -120,6 +125,9 @@ impl Report {
                     detail.tell_refusal(server, code, asked, device.map(|(profile, _)| profile));
                 }
                 detail.registers = detail.register_place(pdu);
+                if let Some(block) = self.unasked(pdu) {
+                    detail.tell_unasked(server, block);
+                }
             }
             Content::Profibus { slave, kind, body } => {
                 if let Some((profile, settings)) = device {
@@ -142,6 +150,31 @@ impl Report {
 }
 
 impl Report {
+    /// What the bytes of "telegram" `index` are, where they are none but a block of registers by itself.
+    pub fn block(&self, index: usize) -> Option<BlockReading> {
+        let telegram = &self.telegrams[index];
+        let device = self.options.device?;
+        let plain = matches!(telegram.verdict, Verdict::Wrong | Verdict::Unchecked);
+        let alone = telegram.answers.is_none() && telegram.guess.certainty != Certainty::Certain;
+        if !plain || self.options.protocol.is_some() || !(alone || telegram.unit == Some(0)) {
+            return None;
+        }
+        let best = blocks(&telegram.line.bytes, Some(device), self.settings(index)).into_iter().next()?;
+        (best.certainty == Certainty::Likely).then_some(best)
+    }
+
+    /// What a response holds that says of no registers it is.
+    fn unasked(&self, pdu: &Pdu) -> Option<BlockReading> {
+        let access = pdu
+            .body
+            .access()
+            .filter(|access| !access.write && access.start.is_none() && !access.table.holds_switches())?;
+        let best = blocks(&big_endian(&access), Some(self.options.device?), &self.options.settings)
+            .into_iter()
+            .next()?;
+        (best.certainty == Certainty::Likely).then_some(best)
+    }
+
     /// The layout that would make right what is wrong with a telegram of functions that have several.
     fn other_layout(&self, index: usize, pdu: &Pdu, fields: &[Field]) -> Option<Problem> {
         let telegram = &self.telegrams[index];
@@ -172,6 +205,41 @@ impl Report {
 }
 
 impl Detail {
+    /// What there is to say of a block by itself.
+    fn of_block(block: BlockReading) -> Self {
+        let kind = block.kind.clone();
+        Self {
+            said: message!("{kind} by itself: {said}", kind = kind.clone(), said = block.said),
+            verdict: Verdict::NoCheck,
+            kind,
+            note: "A block without a frame: its address, and whose it is, the bytes do not tell.",
+            source: "",
+            unit: None,
+            function: None,
+            exception: None,
+            start: None,
+            count: None,
+            values: Vec::new(),
+            coils: false,
+            writes: false,
+            registers: None,
+            channel: None,
+            step: None,
+            device: Said::default(),
+            fields: block.fields,
+        }
+    }
+
+    /// What a response says whose request is not here.
+    fn tell_unasked(&mut self, server: Server, block: BlockReading) {
+        self.said = message!(
+            "{who} answers, to a request that is not here: {said} ({kind})",
+            who = server.name(),
+            said = block.said,
+            kind = small(block.kind)
+        );
+    }
+
     /// Asks the device's table for the registers of a PDU.
     fn ask_registers(&mut self, profile: &'static Profile, settings: &device::Settings, pdu: &Pdu) {
         let function = pdu.function & !EXCEPTION;
@@ -425,6 +493,15 @@ fn refine(fields: &mut [Field], spec: &'static Spec) {
         }
         refine(&mut field.children, spec);
     }
+}
+
+/// A label within a sentence.
+fn small(label: Message) -> String {
+    let mut text = label.to_string();
+    if let Some(first) = text.get_mut(..1) {
+        first.make_ascii_lowercase();
+    }
+    text
 }
 
 /// Where the first field of such a spec stands.

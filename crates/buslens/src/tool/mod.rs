@@ -1,6 +1,7 @@
 //! What the page and the command line offer: plain data in, plain data out.
 
 pub mod annotated;
+mod blocks;
 mod build;
 pub mod byte;
 pub mod copy;
@@ -28,6 +29,7 @@ pub use crate::frame::{PROTOCOLS, Protocol, Verdict};
 pub use crate::text::{Remark, Style};
 pub use crate::walk::form::{Content, Entry, parse_value};
 pub use crate::walk::guide::{Row, Size};
+pub use blocks::{BlockReading, blocks};
 pub use build::build;
 pub use decode::{Options, Report, Settings, Summary, Telegram, decode};
 pub use detail::Detail;

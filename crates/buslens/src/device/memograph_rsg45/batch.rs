@@ -191,6 +191,7 @@ static STATES: Spec = Spec::new("states", "Batches").note("A byte for each batch
 static STATE: Spec = Spec::new("state", "Batch")
     .role(Role::Status)
     .names(&[Name { value: 0, label: "stopped", note: "" }, Name { value: 1, label: "running", note: "" }])
+    .only_named()
     .note("Whether the batch runs.")
     .source(SOURCE);
 
