@@ -140,3 +140,17 @@ proptest! {
         }
     }
 }
+
+/// The device that is chosen weighs on what bytes are; what a check proves, it does not change.
+#[test]
+fn the_device_decides_with() {
+    let protocol = |device: &str, text: &str| {
+        let options = Options { device: Profile::of(device), ..Options::default() };
+        decode(text, options).telegrams[0].choice.protocol.key
+    };
+    assert_eq!(protocol("keb-f5-profibus", "90 80 20 00 01 00 00 00"), "profibus-parameter-channel");
+    assert_eq!(protocol("keb-f5-profibus", "00 00 20 00 01 00 00 00"), "profibus-parameter-channel");
+    assert_ne!(protocol("memograph-rsg45", "41 00 23 00 00 00 00 00"), "profibus-parameter-channel");
+    assert_eq!(protocol("keb-f5-profibus", "01 03 00 C8 00 03 84 35"), "modbus-rtu");
+    assert_eq!(protocol("", "41 00 23 00 00 00 00 00"), "profibus-parameter-channel");
+}

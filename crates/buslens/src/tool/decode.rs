@@ -4,7 +4,7 @@ use std::mem::discriminant;
 use crate::device::{self, Profile};
 use crate::dialogue::{self, Candidate, Certainty, Choice, Guess, Pairing};
 use crate::field::{self, Argument, Direction, Severity, Span};
-use crate::frame::{self, Content, Frame, Protocol, Speaker, Verdict, modbus_ascii};
+use crate::frame::{self, Bus, Content, Frame, Protocol, Speaker, Verdict, modbus_ascii};
 use crate::message;
 use crate::modbus::{Access, Pdu};
 use crate::profibus::jobs::{self, Jobs, Step};
@@ -24,6 +24,16 @@ pub struct Options {
     pub settings: Settings,
 }
 
+impl Options {
+    /// Takes what the chosen device says of its telegrams: its ident number, and what it speaks.
+    pub(super) fn take_device(&mut self) {
+        let Some(device) = self.device else { return };
+        let frame = &mut self.settings.frame;
+        frame.profibus.ident = frame.profibus.ident.or(device.ident);
+        frame.bus = Some(if device.ident.is_some() { Bus::Profibus } else { Bus::Modbus });
+    }
+}
+
 /// What a user set up in the devices that speak, as far as their telegrams depend on it.
 #[derive(Clone, Debug, Default)]
 pub struct Settings {
@@ -38,8 +48,7 @@ pub struct Settings {
 /// Here the telegrams are found, checked and paired. Their fields are read one by one by
 /// [`Report::detail`], when somebody looks.
 pub fn decode(text: &str, mut options: Options) -> Report {
-    let ident = &mut options.settings.frame.profibus.ident;
-    *ident = ident.or(options.device.and_then(|device| device.ident));
+    options.take_device();
     let reading = text::read(text);
     let mut report = Report {
         telegrams: Vec::new(),

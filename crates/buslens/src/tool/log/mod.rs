@@ -159,8 +159,7 @@ impl Log {
         reading: &Reading,
         mut options: Options,
     ) -> Result<Self, Refusal> {
-        let ident = &mut options.settings.frame.profibus.ident;
-        *ident = ident.or(options.device.and_then(|device| device.ident));
+        options.take_device();
         if size > LARGEST {
             return Err(Refusal::TooLarge { size, most: LARGEST });
         }
