@@ -198,8 +198,8 @@ impl Shape {
 /// So many blocks are in a sentence.
 const SHOWN: usize = 3;
 
-/// How much values look like what their fields hold.
-fn likelihood(fields: &[Field]) -> i32 {
+/// How much values look like what their fields hold, in bits of chance.
+pub fn likelihood(fields: &[Field]) -> i32 {
     /// What must not be.
     const WRONG: i32 = 8;
     let of_leaf = |leaf: &Field| match leaf.value {

@@ -167,6 +167,18 @@ impl Report {
         report
     }
 
+    /// Some of the telegrams, as they read with other options.
+    pub(super) fn read_as(&self, indices: &[usize], mut options: Options) -> Self {
+        options.take_device();
+        let place = |index: Option<usize>| index.and_then(|index| indices.iter().position(|it| *it == index));
+        let telegrams = indices.iter().map(|index| {
+            let mut telegram = self.telegrams[*index].clone();
+            (telegram.answers, telegram.answered_by) = (place(telegram.answers), place(telegram.answered_by));
+            telegram
+        });
+        Self::of(telegrams.collect(), options)
+    }
+
     /// Leaves out the first `count` telegrams, but not what they said of how devices are set up.
     pub(super) fn forget(&mut self, count: usize) {
         self.telegrams.drain(..count);

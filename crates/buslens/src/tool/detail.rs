@@ -62,6 +62,12 @@ impl Detail {
         problems
     }
 
+    /// Whether a field of this label has this value.
+    pub(super) fn fields_hold(&self, label: &str, value: Option<u64>) -> bool {
+        let of = |leaf: &&Field| leaf.spec.label == label && leaf.value.raw() == value;
+        value.is_some() && field::leaves(&self.fields).iter().any(of)
+    }
+
     /// The check bytes, where the telegram is long enough to have some.
     pub fn check(&self) -> Option<Check> {
         field::leaves(&self.fields).into_iter().find_map(|leaf| match leaf.value {

@@ -1,3 +1,4 @@
+use super::Detail;
 use super::decode::{Options, Report};
 use crate::device::{Misprint, PROFILES};
 use crate::dialogue::{self, Cause, Certainty, Context, Guess, Hypothesis, chance_of_change, hypotheses};
@@ -117,21 +118,22 @@ impl Report {
             .collect()
     }
 
-    /// Whether the device knows the registers of a hypothesis, and how much is wrong with them.
-    fn known(&self, index: usize, hypothesis: &Hypothesis, guess: &Guess) -> (bool, usize) {
-        if self.options.device.is_none() {
-            return (false, 0);
-        }
+    /// What a hypothesis says in the device's words.
+    fn in_words(&self, index: usize, hypothesis: &Hypothesis, guess: &Guess) -> Option<Detail> {
+        self.options.device?;
         let mut telegram = self.telegrams[index].clone();
         telegram.line.bytes.clone_from(&hypothesis.bytes);
         telegram.guess = guess.clone();
+        telegram.verdict = Verdict::Right;
+        if let Some(protocol) = hypothesis.protocol {
+            telegram.choice.protocol = protocol;
+        }
         let request = telegram.answers.map(|request| self.telegrams[request].clone());
         telegram.answers = request.as_ref().map(|_| 0);
         let telegrams: Vec<_> = request.into_iter().chain([telegram]).collect();
         let options = Options { settings: self.settings(index).clone(), ..self.options.clone() };
         let alone = Self::of(telegrams, options);
-        let device = alone.detail(alone.telegrams.len() - 1).map(|detail| detail.device).unwrap_or_default();
-        (!device.blocks.is_empty() && device.problems.is_empty(), device.problems.len())
+        alone.detail(alone.telegrams.len() - 1)
     }
 
     /// Reads a hypothesis as what it would be, a response to `asked`.
@@ -163,9 +165,12 @@ impl Report {
         if guess.certainty != Certainty::Certain && telegram.guess.certainty != guess.certainty {
             problems += 1;
         }
-        let (known, wrong) = self.known(index, &hypothesis, &guess);
+        let in_words = self.in_words(index, &hypothesis, &guess);
+        let wrong = in_words.as_ref().map_or(0, |detail| detail.device.problems.len());
+        let known = wrong == 0 && in_words.as_ref().is_some_and(|detail| !detail.device.blocks.is_empty());
         problems += wrong;
         let (removed, added) = hypothesis.difference(&telegram.line.bytes);
-        Explanation { problems, known, said: frame.meaning(), removed, added, hypothesis }
+        let said = in_words.map_or_else(|| frame.meaning(), |detail| detail.said);
+        Explanation { problems, known, said, removed, added, hypothesis }
     }
 }
