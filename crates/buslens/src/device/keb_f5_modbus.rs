@@ -26,17 +26,14 @@ pub static PROFILE: Profile = Profile {
     label: "KEB COMBIVERT F5 on Modbus",
     source: "KEB COMBIVERT F5 Modbus operator",
     functions: &[3, 4, 6, 16, 100, 101],
-    ident: None,
     hex_addresses: true,
     areas: AREAS,
     parameters: &[keb_f5::INVERTER_PARAMETERS, PARAMETERS],
-    most_registers: None,
-    display: &[],
     lessons: LESSONS,
     rules: &[entries],
     exceptions: Some(&keb_f5::EXCEPTIONS),
     aliases: ALIASES,
-    misprints: &[],
+    ..Profile::BLANK
 };
 
 static AREAS: &[Area] = &[

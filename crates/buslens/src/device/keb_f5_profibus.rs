@@ -22,18 +22,14 @@ pub static PROFILE: Profile = Profile {
     key: "keb-f5-profibus",
     label: "KEB COMBIVERT F5 on PROFIBUS-DP",
     source: "KEB COMBIVERT F5 PROFIBUS-DP operator",
-    functions: &[],
     ident: Some(0x05EB),
     hex_addresses: true,
     areas: AREAS,
     parameters: &[keb_f5::INVERTER_PARAMETERS, PARAMETERS],
-    most_registers: None,
     display: DISPLAY,
     lessons: LESSONS,
-    rules: &[],
-    exceptions: None,
     aliases: ALIASES,
-    misprints: &[],
+    ..Profile::BLANK
 };
 
 /// The process data descriptions, which give process data words their meaning, and what puts them back.

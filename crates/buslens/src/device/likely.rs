@@ -83,7 +83,12 @@ impl Profile {
             fields,
             of: vec![area.spec.label],
             blocks: 1,
-            bits: if known { 6 } else { 1 },
+            // As many as the list has, each with its parameter.
+            bits: match known {
+                true if count == mapping.entries.len() => 9,
+                true => 6,
+                false => 1,
+            },
         })
     }
 }

@@ -317,6 +317,25 @@ impl Settings {
 }
 
 impl Profile {
+    /// What a device has that has nothing special: a table names only what it has.
+    pub const BLANK: Self = Self {
+        key: "",
+        label: "",
+        source: "",
+        functions: &[],
+        ident: None,
+        hex_addresses: false,
+        areas: &[],
+        parameters: &[],
+        most_registers: None,
+        display: &[],
+        lessons: &[],
+        rules: &[],
+        exceptions: None,
+        aliases: &[],
+        misprints: &[],
+    };
+
     /// The device with this key.
     pub fn of(key: &str) -> Option<&'static Self> {
         PROFILES.iter().copied().find(|profile| profile.key == key)

@@ -167,6 +167,33 @@ impl Report {
         report
     }
 
+    /// A request and a response to it, both of which are known for what they are.
+    pub(super) fn of_pair(
+        request: &[u8],
+        response: &[u8],
+        protocol: &'static Protocol,
+        mut options: Options,
+    ) -> Self {
+        options.take_device();
+        let telegram = |bytes: &[u8], direction| Telegram {
+            number: 1,
+            line: Line { bytes: bytes.to_vec(), ..Line::default() },
+            choice: Choice { protocol, reason: message!("it was made so"), others: Vec::new() },
+            guess: Guess { direction, certainty: Certainty::Certain, reason: message!("it was made so") },
+            verdict: (protocol.verdict)(bytes),
+            unit: (protocol.unit)(bytes),
+            answers: None,
+            answered_by: None,
+            step: None,
+            time: None,
+            latency: None,
+            comment: String::new(),
+        };
+        let asked = Telegram { answered_by: Some(1), ..telegram(request, Direction::Request) };
+        let answer = Telegram { number: 2, answers: Some(0), ..telegram(response, Direction::Response) };
+        Self::of(vec![asked, answer], options)
+    }
+
     /// Some of the telegrams, as they read with other options.
     pub(super) fn read_as(&self, indices: &[usize], mut options: Options) -> Self {
         options.take_device();

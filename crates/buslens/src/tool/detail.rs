@@ -131,7 +131,7 @@ impl Report {
                     detail.tell_refusal(server, code, asked, device.map(|(profile, _)| profile));
                 }
                 detail.registers = detail.register_place(pdu);
-                if let Some(block) = self.unasked(pdu) {
+                if let Some(block) = self.unasked(index, pdu) {
                     detail.tell_unasked(server, block);
                 }
             }
@@ -170,12 +170,12 @@ impl Report {
     }
 
     /// What a response holds that says of no registers it is.
-    fn unasked(&self, pdu: &Pdu) -> Option<BlockReading> {
+    fn unasked(&self, index: usize, pdu: &Pdu) -> Option<BlockReading> {
         let access = pdu
             .body
             .access()
             .filter(|access| !access.write && access.start.is_none() && !access.table.holds_switches())?;
-        let best = blocks(&big_endian(&access), Some(self.options.device?), &self.options.settings)
+        let best = blocks(&big_endian(&access), Some(self.options.device?), self.settings(index))
             .into_iter()
             .next()?;
         (best.certainty == Certainty::Likely).then_some(best)

@@ -2,7 +2,7 @@
 
 use super::build::{build, does_not_carry, slot};
 use super::link::Link;
-use super::{Change, Entries, Offer, Options, Settings, decode, offers, replies};
+use super::{Change, Entries, Offer, Options, Report, Settings, decode, offers, replies};
 use crate::device::{Draft, Profile, Task};
 use crate::field::{Argument, Direction, Message, Role, Spec, hex, problems};
 use crate::frame::{self, Cargo, Frame, PROTOCOLS, Protocol};
@@ -30,6 +30,15 @@ pub struct Editor {
     pub device: Option<&'static Profile>,
     subject: Subject,
     entries: Entries,
+}
+
+/// What can come back to a request.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    pub label: Message,
+    pub bytes: Vec<u8>,
+    /// The answer in a sentence.
+    pub said: Message,
 }
 
 /// What the form is of.
@@ -275,6 +284,29 @@ impl Editor {
         replies.into_iter().map(|mut reply| (reply.label, bytes(reply.frame.as_mut()))).collect()
     }
 
+    /// What can come back, each with what it says in the device's words.
+    pub fn answers(&mut self, settings: &Settings) -> Vec<Answer> {
+        let Ok(request) = self.bytes() else { return Vec::new() };
+        let options = Options { device: self.device, settings: settings.clone(), ..Options::default() };
+        let protocol = self.protocol;
+        let replies = self.replies(settings).into_iter();
+        let answer = |(label, bytes): (Message, Vec<u8>)| {
+            let both = Report::of_pair(&request, &bytes, protocol, options.clone());
+            let said = both.detail(1).map_or_else(|| label.clone(), |detail| detail.said);
+            Answer { label, bytes, said }
+        };
+        replies.map(answer).collect()
+    }
+
+    /// Makes a job for the parameter channel the next one: with the other handshake.
+    pub fn next_job(&mut self) {
+        let Subject::Task(asking) = &self.subject else { return };
+        if asking.draft.by_index() {
+            let next = (1 - asking.draft.handshake.min(1)).to_string();
+            self.edit("handshake", Change::Enter(&next));
+        }
+    }
+
     /// Changes the entry at `path`.
     pub fn edit(&mut self, path: &str, change: Change) {
         self.entries.edit(self.subject.telegram(), path, change);
@@ -394,6 +426,26 @@ mod tests {
         let mut again = Editor::follow(&link).unwrap();
         assert_eq!(again.bytes(), editor.bytes());
         assert!(Editor::follow(&Link::default()).is_none());
+    }
+
+    /// The next job takes the other handshake; what comes back is said in the device's words.
+    #[test]
+    fn jobs_follow_each_other() {
+        let settings = Settings::default();
+        let f5 = PROFILES.iter().copied().find(|profile| profile.key == "keb-f5-profibus");
+        let offer =
+            offers(f5).into_iter().find(|offer| offer.label().to_string() == "read Status word (Sy.51)");
+        let channel = PROTOCOLS.iter().find(|protocol| protocol.key == "profibus-parameter-channel").unwrap();
+        let mut editor = Editor::new(offer.unwrap(), 1, channel, &settings).unwrap();
+        assert_eq!(editor.bytes().unwrap()[0], 0x41);
+        editor.next_job();
+        assert_eq!(editor.bytes().unwrap()[0], 0x01);
+        let answers = editor.answers(&settings);
+        assert_eq!(
+            answers[0].said.to_string(),
+            "job 1 is done: the slave answers: Status word (Sy.51) = 0000h"
+        );
+        assert!(answers[1].said.to_string().contains("refuses to read index 2033h"), "{}", answers[1].said);
     }
 
     /// Whatever is offered can be opened in at least one protocol, and what was made of it is read

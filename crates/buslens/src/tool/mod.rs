@@ -35,7 +35,7 @@ pub use blocks::{BlockReading, blocks};
 pub use build::build;
 pub use decode::{Options, Report, Settings, Summary, Telegram, decode};
 pub use detail::Detail;
-pub use editor::Editor;
+pub use editor::{Answer, Editor};
 pub use entries::{Change, Entries};
 pub use explain::Explanation;
 pub use log::decode_file;

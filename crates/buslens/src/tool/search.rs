@@ -240,6 +240,10 @@ impl Query {
         {
             return None;
         }
+        // Forms are made only where a word may mean something.
+        if !self.words.iter().any(|word| may_mean(task, word)) {
+            return None;
+        }
         let mut best: Option<Fit> = None;
         for choice in choices(task) {
             let fit = Fitting::new(self, task, choice).fit();
@@ -326,7 +330,7 @@ fn in_words(labels: &[&str], word: &str) -> i32 {
                 WORD
             } else if own == singular || own.strip_suffix('s') == Some(singular) {
                 WORD - 5
-            } else if word.len() > 1 && (own.starts_with(word) || own.starts_with(singular)) {
+            } else if !word.is_empty() && (own.starts_with(word) || own.starts_with(singular)) {
                 BEGINNING
             } else {
                 0
@@ -345,6 +349,30 @@ fn spec_of(task: &Task) -> &'static Spec {
         Target::Area(area) => &area.spec,
         Target::Parameter(parameter) => &parameter.spec,
     }
+}
+
+/// Whether a word can mean something of a task, as far as that is told without its form.
+fn may_mean(task: &Task, word: &Word) -> bool {
+    let spec = spec_of(task);
+    let (also, id, whole) = match task.target {
+        Target::Area(area) => {
+            // Commands and parts have words of their own.
+            let more = matches!(area.content, Held::Telegram { .. } | Held::Parts(_));
+            (area.also, "", more || spec.format == crate::field::Format::Float)
+        }
+        Target::Parameter(parameter) => (parameter.also, parameter.id, false),
+    };
+    let plain = word.plain.as_str();
+    let meant = SYNONYMS.iter().find(|(said, _)| *said == plain).map_or(plain, |(_, meant)| *meant);
+    let bits = spec.bits.iter().flat_map(|part| part.names.iter().map(|name| name.label).chain([part.label]));
+    let names = spec.names.iter().map(|name| name.label).chain(bits);
+    let noted =
+        |text: &str| text.to_ascii_lowercase().contains(plain) || text.to_ascii_lowercase().contains(meant);
+    word.number.is_some_and(|number| number.whole.is_some())
+        || (whole && !word.stop)
+        || in_words(&[spec.label, also, id], plain) > 0
+        || numbered_names(also).any(|name| fold(name) == plain.trim_end_matches(|c: char| c.is_ascii_digit()))
+        || (!word.stop && !plain.is_empty() && (names.into_iter().any(noted) || noted(spec.note)))
 }
 
 /// The forms of a task: one for each function that can be chosen, or the only one.
@@ -529,11 +557,8 @@ impl<'a> Fitting<'a> {
     /// A name that ends with the number of a block: `MDB_Mapping_Rd_0`.
     fn numbered_name(&self, word: &Word) -> i32 {
         let Target::Area(Area { also, .. }) = self.task.target else { return 0 };
-        let digits = word.plain.trim_end_matches(|c: char| c.is_ascii_digit());
-        let named = digits != word.plain
-            && split_names(also)
-                .iter()
-                .any(|name| name.strip_suffix("_N").is_some_and(|name| fold(name) == digits));
+        let name = word.plain.trim_end_matches(|c: char| c.is_ascii_digit());
+        let named = name != word.plain && numbered_names(also).any(|known| fold(known) == name);
         if named { NAME } else { 0 }
     }
 
@@ -856,6 +881,11 @@ enum Before {
     Number,
     Value,
     Stop,
+}
+
+/// The names in a list that have a number behind them: `MDB_Mapping_Rd_N`, without that.
+fn numbered_names(also: &'static str) -> impl Iterator<Item = &'static str> {
+    also.split(' ').filter_map(|name| name.strip_suffix("_N"))
 }
 
 /// The names in a list parted by spaces, each with what it is parted by inside.

@@ -2,7 +2,8 @@ use std::fmt::Write as _;
 
 use buslens::device::Profile;
 use buslens::field::Field;
-use buslens::tool::{Detail, Options, Protocol, Report, decode, search, settings};
+use buslens::tool::log::Reading;
+use buslens::tool::{Detail, Options, Protocol, Report, decode, decode_file, search, settings};
 
 use super::{lines, profile, write_lines};
 
@@ -86,7 +87,11 @@ impl Row {
         match how {
             "lengths" => self.lengths(),
             "search" => self.found(&telegrams),
-            "display" => self.displayed(&telegrams),
+            "display" => self.displayed(&decode(&telegrams, self.options())),
+            "display-file" => {
+                let report = decode_file(telegrams.as_bytes(), &Reading::default(), self.options());
+                self.displayed(&report.expect("a file"))
+            }
             "printed" => self.printed(rest, &telegrams),
             _ => {
                 let report = decode(&telegrams, self.options());
@@ -131,8 +136,7 @@ impl Row {
         Said { sentence: format!("{} of {all} lengths", listed.count()), ..Said::default() }
     }
 
-    fn displayed(&self, text: &str) -> Said {
-        let report = decode(text, self.options());
+    fn displayed(&self, report: &Report) -> Said {
         let remarks = report.lines().flat_map(|line| &line.remarks);
         Said { sentence: remarks.map(|remark| remark.message.sentence()).collect(), ..Said::default() }
     }

@@ -18,17 +18,12 @@ pub static PROFILE: Profile = Profile {
     label: "Endress+Hauser Memograph M RSG45",
     source: "Memograph M RSG45 Modbus supplement",
     functions: &[3, 6, 16],
-    ident: None,
-    hex_addresses: false,
     areas: AREAS,
-    parameters: &[],
     most_registers: Some(123),
-    display: &[],
     lessons: present::LESSONS,
     rules: present::RULES,
-    exceptions: None,
-    aliases: &[],
     misprints: MISPRINTS,
+    ..Profile::BLANK
 };
 
 /// Where the overview (section 3) and the sections before it contradict each other, this follows

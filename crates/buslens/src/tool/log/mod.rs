@@ -129,6 +129,10 @@ pub fn decode_file(file: &[u8], reading: &Reading, options: Options) -> Result<R
         Err(Refusal::Empty) => return Ok(decode("", options)),
         log => log?,
     };
+    if log.entries().is_empty() && matches!(log.format, Format::Text { .. }) {
+        // What a display shows is text, too.
+        return Ok(decode(&String::from_utf8_lossy(file), options));
+    }
     if reading.marks.is_none() && reading.input != Input::Binary && log.is_plain() {
         let report = decode(&String::from_utf8_lossy(file), options);
         let right = report.telegrams.iter().filter(|telegram| telegram.verdict == Verdict::Right).count();
