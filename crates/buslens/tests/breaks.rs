@@ -410,7 +410,7 @@ mod builds {
                 let mut request =
                     (PROTOCOLS[0].expect)(&bytes, Direction::Request, &Settings::default().frame);
                 walk::read(request.as_mut(), &bytes);
-                let all = replies(request.as_mut(), &Settings::default().frame.profibus);
+                let all = replies(request.as_mut(), &Settings::default().frame.profibus, None);
                 assert!(all.len() > 3);
                 for mut reply in all {
                     let bytes = walk::write(reply.frame.as_mut(), &Deviations::default());

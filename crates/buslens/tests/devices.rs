@@ -106,7 +106,7 @@ fn everything_has_words_for_a_person() {
                 }
                 Content::Telegram { read, write } => {
                     for new in read.into_iter().chain(write) {
-                        for row in guide(new().as_mut()) {
+                        for row in guide(new(&Settings::default()).as_mut()) {
                             let width = match row.size {
                                 Size::Fixed(width) => width,
                                 _ => 8,
@@ -152,7 +152,9 @@ fn assert_names(key: &str, names: &[Name]) {
     let mut labels = BTreeSet::new();
     for name in names {
         assert!(values.insert(name.value), "{key}: {} twice", name.value);
-        assert!(!name.label.is_empty() && labels.insert(name.label), "{key}: “{}”", name.label);
+        // What goes without saying has no label, but is explained.
+        let told = !name.label.is_empty() || !name.note.is_empty();
+        assert!(told && labels.insert(name.label), "{key}: “{}”", name.label);
     }
 }
 
@@ -175,6 +177,7 @@ proptest! {
         access in access(),
         bytes in proptest::option::of(proptest::collection::vec(any::<u8>(), 0..800)),
         whole: bool,
+        single: bool,
     ) {
         // Mostly as many bytes as there should be.
         let bytes = bytes.map(|mut bytes| {
@@ -184,7 +187,7 @@ proptest! {
             bytes
         });
         let span = Span::new(OFFSET, OFFSET + bytes.as_ref().map_or(2, Vec::len));
-        let registers = Registers { start, count, width, access, values: bytes.as_deref(), span };
+        let registers = Registers { start, count, width, access, single, values: bytes.as_deref(), span };
         let said = profile.registers(&registers, &settings);
         let mut next = u32::from(start);
         for block in &said.blocks {
@@ -231,9 +234,8 @@ proptest! {
         let span = Span::new(OFFSET, OFFSET + bytes.len());
         let process = Process { output, bytes: &bytes, span, order };
         let said = profile.process(&process, &settings);
-        let words = if output { &settings.process_output } else { &settings.process_input };
-        // What is not mapped is left out, and so is half a word.
-        prop_assert_eq!(tiled(&said), OFFSET + (2 * words.len()).min(bytes.len() / 2 * 2));
+        // Half a word is left out.
+        prop_assert_eq!(tiled(&said), OFFSET + bytes.len() / 2 * 2);
         read_all(&said);
     }
 
@@ -241,13 +243,13 @@ proptest! {
     fn anything_can_be_learned(
         profile in profile(),
         mut settings in settings(),
-        written in proptest::collection::vec((address(), any::<u8>(), any::<u32>(), 1..=4_usize), 0..20),
+        written in proptest::collection::vec((address(), any::<u8>(), any::<u32>(), 1..=4_usize, any::<bool>()), 0..20),
     ) {
-        for (address, subindex, value, width) in written {
+        for (address, subindex, value, width, written) in written {
             let before = settings.clone();
-            let changed = profile.learn(address, subindex, value, width, &mut settings);
+            let changed = profile.learn(address, subindex, value, width, written, &mut settings);
             prop_assert_eq!(changed, settings != before);
-            prop_assert!(!profile.learn(address, subindex, value, width, &mut settings));
+            prop_assert!(!profile.learn(address, subindex, value, width, written, &mut settings));
         }
     }
 }
@@ -309,6 +311,7 @@ fn settings() -> impl Strategy<Value = Settings> {
             write_mapping,
             process_output,
             process_input,
+            ..Settings::default()
         },
     )
 }
@@ -326,8 +329,9 @@ fn mapping() -> impl Strategy<Value = Mapping> {
     ];
     // Mostly where registers are asked for.
     let start = prop_oneof![3 => 0..24_u16, 1 => address()];
-    (start, proptest::collection::vec(entry.prop_map(Entry), 0..120))
-        .prop_map(|(start, entries)| Mapping { start, entries })
+    let used = proptest::option::weighted(0.3, 0..=100_usize);
+    (start, proptest::collection::vec(entry.prop_map(Entry), 0..120), used)
+        .prop_map(|(start, entries, used)| Mapping { start, entries, used })
 }
 
 fn words() -> impl Strategy<Value = Vec<ProcessWord>> {

@@ -8,8 +8,8 @@
 //! Sources: the manuals of the Modbus operator (sections 1.2, 2.2 and 3) and of the PROFIBUS-DP
 //! operator (sections 6.4, 8.1, 9, 9.1.1 and 10.2).
 
-use super::{Access, Area, Parameter};
-use crate::field::{Bits, Format, Name, Spec};
+use super::{Access, Area, Parameter, Taught};
+use crate::field::{Bits, Format, Name, Role, Spec};
 
 /// A word of process data: the PROFIBUS index of the parameter that it carries, and its sets as
 /// `sets` tells them apart. The second word of a 32-bit value has index 0.
@@ -31,7 +31,7 @@ const fn word(index: u16) -> ProcessWord {
 
 /// Takes one part of a process data description into `words`: subindex 4x - 2 is the index of word
 /// x, the one behind it its sets.
-pub(super) fn describe(words: &mut Vec<ProcessWord>, subindex: u8, value: u32) {
+pub(super) fn describe(words: &mut Vec<ProcessWord>, &Taught { subindex, value, .. }: &Taught) {
     let Some(word) = usize::from(subindex).checked_sub(2).map(|part| part / 4) else { return };
     if word < MOST_WORDS && words.len() <= word {
         words.resize(word + 1, ProcessWord { index: 0, sets: 0 });
@@ -71,8 +71,51 @@ pub(super) const fn inverter_parameters(note: &'static str, source: &'static str
         .hex_numbers()
         .note(note)
         .source(source);
-    Area::new(INVERTER, spec).blocks(0x3F00, 1, 0)
+    Area::new(INVERTER, spec).blocks(0x3F00, 1, 0).in_sets()
 }
+
+/// Whether the operator's own parameters are here, among the inverter's: from XX80h on in each group.
+pub(super) fn is_operators(address: u16) -> bool {
+    INVERTER_INDICES.contains(&address) && (0x80..=0xFE).contains(&(address & 0xFF))
+}
+
+/// The address of a parameter of the inverter as registers and indices have it.
+pub(super) const fn inverter_address(parameter: u16) -> u16 {
+    INVERTER.wrapping_add(parameter)
+}
+
+/// What the operator adds to the standard's exception codes.
+pub(super) static EXCEPTIONS: Spec = Spec::new("exception", "Exception code")
+    .short("Exception")
+    .role(Role::Status)
+    .note("Why the operator refuses.")
+    .source("KEB COMBIVERT F5 Modbus operator, 4.2")
+    .names(&[
+        Name {
+            value: 64,
+            label: "internal buffer overflow",
+            note: "The request is longer than the F5 operator can take: ask for less at once.",
+        },
+        Name {
+            value: 65,
+            label: "timeout towards the inverter",
+            note: "The operator got no answer from the inverter behind it.",
+        },
+        Name {
+            value: 66,
+            label: "parameter is write-protected",
+            note: "The inverter parameter can only be read, or not be written in this state.",
+        },
+        Name { value: 67, label: "wrong password", note: "The parameter needs a higher password level." },
+    ]);
+
+/// A note of a parameter whose remark in the manuals says when a new value counts.
+macro_rules! kept {
+    ($note:literal) => {
+        concat!($note, " A new value counts at once, and is kept without power.")
+    };
+}
+pub(super) use kept;
 
 /// Whether a named parameter is the inverter's, and so may differ from set to set.
 pub(super) fn has_sets(parameter: &Parameter) -> bool {
@@ -84,15 +127,18 @@ pub(super) static INVERTER_PARAMETERS: &[Parameter] = &[
     inverter(
         0x0006,
         "Sy.06",
-        Spec::new("inverter_address", "Inverter address").note(
-            "The address on the bus, 1 as delivered. The Modbus operator can have one of its own; if \
+        Spec::new("inverter_address", "Inverter address")
+            .names(&[Name { value: 0, label: "0, no Modbus", note: "All activity on Modbus is off." }])
+            .initial(1)
+            .note(
+                "The address on the bus, 1 as delivered. The Modbus operator can have one of its own; if \
              it has not, 0 switches Modbus off.",
-        ),
+            ),
     ),
     inverter(
         0x0007,
         "Sy.07",
-        Spec::new("baud_rate", "Baud rate").names(BAUD_RATES).note(
+        Spec::new("baud_rate", "Baud rate").names(BAUD_RATES).only_named().note(
             "How fast the Modbus and the diagnosis interface are. The operator looks at it once, when \
              it starts.",
         ),
@@ -117,26 +163,33 @@ pub(super) static INVERTER_PARAMETERS: &[Parameter] = &[
     inverter(
         0x0034,
         "Sy.52",
-        Spec::new("set_speed", "Set speed").format(Format::Register).note("How fast the motor is to turn."),
+        Spec::new("set_speed", "Set speed")
+            .format(Format::Signed)
+            .note("How fast the motor is to turn; below 0 the other way round."),
     )
     .length(2),
     inverter(
         0x0035,
         "Sy.53",
-        Spec::new("actual_speed", "Actual speed").format(Format::Register).note("How fast the motor turns."),
+        Spec::new("actual_speed", "Actual speed")
+            .format(Format::Signed)
+            .note("How fast the motor turns; below 0 the other way round."),
     )
     .length(2)
     .access(Access::Read),
     inverter(
         0x0300,
         "OP.00",
-        Spec::new("reference_source", "Reference source")
-            .note("Where the inverter takes its set speed from. 5 for the set speed in the process data."),
+        Spec::new("reference_source", "Reference source").initial(5).note(
+            "Where the inverter takes its set speed from. 5 for the set speed in the process data; with \
+                 them, bit 0 of DI.01 (signal source) and of DI.02 (digital inputs) has to be 1, too.",
+        ),
     ),
     inverter(
         0x0301,
         "OP.01",
         Spec::new("rotation_source", "Rotation source")
+            .initial(8)
             .note("Where the inverter takes its direction from. 8 goes with process data, as do others."),
     ),
     inverter(

@@ -14,43 +14,76 @@
 //!
 //! Source: KEB COMBIVERT F5 PROFIBUS-DP operator manual (20114545), sections 9, 10.2, 12.1, 12.2.
 
-use super::{Access, Area, Display, Lesson, Parameter, Profile, keb_f5};
-use crate::field::{Bits, Format, Name, Spec};
+use super::keb_f5::kept;
+use super::{Access, Alias, Area, Display, Lesson, Parameter, Profile, Settings, keb_f5};
+use crate::field::{Bits, Format, Name, Range, Spec};
 
 pub static PROFILE: Profile = Profile {
     key: "keb-f5-profibus",
     label: "KEB COMBIVERT F5 on PROFIBUS-DP",
     source: "KEB COMBIVERT F5 PROFIBUS-DP operator",
-    functions: &[],
     ident: Some(0x05EB),
     hex_addresses: true,
     areas: AREAS,
     parameters: &[keb_f5::INVERTER_PARAMETERS, PARAMETERS],
-    most_registers: None,
     display: DISPLAY,
     lessons: LESSONS,
+    aliases: ALIASES,
+    ..Profile::BLANK
 };
 
-/// The process data descriptions, which give process data words their meaning.
+/// The process data descriptions, which give process data words their meaning, and what puts them back.
 static LESSONS: &[Lesson] = &[
+    Lesson {
+        from: 0x5FD9,
+        count: 1,
+        read: false,
+        learn: |taught, settings| {
+            if taught.value == RESET {
+                as_delivered(settings);
+            }
+        },
+    },
+    Lesson {
+        from: 0x5FE2,
+        count: 1,
+        read: true,
+        learn: |taught, settings| {
+            if taught.value != STORED {
+                as_delivered(settings);
+            }
+        },
+    },
     Lesson {
         from: 0x6000,
         count: 1,
-        learn: |_, part, value, settings| keb_f5::describe(&mut settings.process_input, part, value),
+        read: true,
+        learn: |taught, settings| keb_f5::describe(&mut settings.process_input, taught),
     },
     Lesson {
         from: 0x6001,
         count: 1,
-        learn: |_, part, value, settings| keb_f5::describe(&mut settings.process_output, part, value),
+        read: true,
+        learn: |taught, settings| keb_f5::describe(&mut settings.process_output, taught),
     },
 ];
+
+/// The command to load the factory settings, and the value by which stored descriptions count.
+const RESET: u32 = 1;
+const STORED: u32 = 0xFF;
+
+fn as_delivered(settings: &mut Settings) {
+    settings.process_output = keb_f5::STANDARD_OUTPUT.to_vec();
+    settings.process_input = keb_f5::STANDARD_INPUT.to_vec();
+}
 
 static AREAS: &[Area] = &[
     keb_f5::inverter_parameters(
         "A parameter of the inverter: index less 2000h is its address. The subindex says in which sets; \
          0 is the set that Fr.09 chooses.",
         INDICES,
-    ),
+    )
+    .between(keb_f5::is_operators, &OPERATORS_IN_GROUP),
     Area::new(
         0x5F00,
         Spec::new("operator_parameter", "Operator parameter")
@@ -59,7 +92,8 @@ static AREAS: &[Area] = &[
             .note("How the operator, the inverter's bus module, is set up.")
             .source(INDICES),
     )
-    .blocks(0x100, 1, 0x5F00),
+    .blocks(0x100, 1, 0x5F00)
+    .listed(),
     Area::new(
         0x6000,
         Spec::new("drivecom_parameter", "DRIVECOM parameter")
@@ -68,8 +102,18 @@ static AREAS: &[Area] = &[
             .note("Coded as the DRIVECOM profile says, such as what the process data carry.")
             .source(INDICES),
     )
-    .blocks(0xA000, 1, 0x6000),
+    .blocks(0xA000, 1, 0x6000)
+    .listed(),
 ];
+
+/// What the operator has in the groups of the inverter's parameters: from XX80h on.
+static OPERATORS_IN_GROUP: Spec = Spec::new("operator_parameter_in_group", "Operator parameter")
+    .format(Format::Register)
+    .hex_numbers()
+    .note(
+        "A parameter of the operator: in each group of parameters the addresses XX80h to XXFEh are its own.",
+    )
+    .source("KEB COMBIVERT F5 PROFIBUS-DP operator, 10.2");
 
 /// One bit for each of several numbered things: `bit: number`.
 macro_rules! flags {
@@ -140,8 +184,9 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         0x2181,
         "OS01",
         Spec::new("password", "Password").note(
-            "At the keyboard it leads back to the inverter's parameters. The manual marks its access \
-             WA without explaining that; here it counts as write only."
+            "At the keyboard, 666 in ud.01 leads to the operator's parameters, and the password of the \
+             application, such as 440, in os.01 back to the inverter's. The manual marks its access WA \
+             without explaining that; here it counts as write only."
         )
     )
     .access(Access::Write),
@@ -165,6 +210,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         "OS05",
         Spec::new("diag_baudrate", "Diag Baudrate")
             .names(keb_f5::BAUD_RATES)
+            .only_named()
             .note("How fast the diagnosis interface is. To change it, change Sy.07.")
     )
     .length(1)
@@ -173,7 +219,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         0x2187,
         "OS07",
         Spec::new("hsp5_tout_count", "HSP5 Tout Count")
-            .note("How often the inverter did not answer the operator in time.")
+            .note("How often the inverter did not answer the operator in time; 0 as delivered.")
     )
     .length(2),
     listed(
@@ -183,8 +229,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         "Software number",
         Format::Decimal,
         "By its name: which software the operator has."
-    )
-    .subindex(0),
+    ),
     listed(
         0x2190,
         "OS16",
@@ -193,7 +238,6 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         Format::Hex,
         "By its name: which memory cell Mem_Val shows."
     )
-    .subindex(0)
     .access(Access::ReadWrite),
     listed(
         0x2191,
@@ -202,8 +246,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         "Mem_Val",
         Format::Hex,
         "By its name: what the memory cell at Mem_Addr holds."
-    )
-    .subindex(0),
+    ),
     listed(
         0x2192,
         "OS18",
@@ -212,7 +255,6 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         Format::Hex,
         "By its name: which EEPROM cell EE_Data shows."
     )
-    .subindex(0)
     .access(Access::ReadWrite),
     listed(
         0x2193,
@@ -221,8 +263,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         "EE_Data",
         Format::Hex,
         "By its name: what the EEPROM cell at EE_Address holds."
-    )
-    .subindex(0),
+    ),
     listed(
         0x2194,
         "OS20",
@@ -231,7 +272,6 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         Format::Decimal,
         "By its name: which counter FatalErrorCnt_Value shows."
     )
-    .subindex(0)
     .access(Access::ReadWrite),
     listed(
         0x2195,
@@ -240,8 +280,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         "FatalErrorCnt_Value",
         Format::Decimal,
         "By its name: how often one fatal error has come up."
-    )
-    .subindex(0),
+    ),
     operator(
         0x2196,
         "HSP5CommMode",
@@ -268,10 +307,14 @@ static PARAMETERS: &[Parameter] = with_descriptions![
     operator(
         0x2198,
         "SelComCycle",
-        Spec::new("sel_com_cycle", "Selected telegram cycle").unit("µs").names(NO_CYCLE).note(
-            "The time from telegram to telegram in cyclic mode, in steps of 1000; 0 as delivered. All \
-             process data take two telegrams."
-        )
+        Spec::new("sel_com_cycle", "Selected telegram cycle").unit("µs")
+            .names(NO_CYCLE)
+            .rule(|raw| (!raw.is_multiple_of(1000)).then_some("only multiples of 1000 µs are possible"))
+            .note(kept!(
+                "The time from telegram to telegram in cyclic mode, in steps of 1000; 0 as delivered. Best is \
+                 1000 or 2000. All process data take two telegrams: their cycle is 2 × SelComCycle, 2 ms at \
+                 least."
+            ))
     )
     .length(4)
     .since("1.7"),
@@ -279,7 +322,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         0x2199,
         "ComCycle",
         Spec::new("com_cycle", "Actual telegram cycle").unit("µs").names(NO_CYCLE).note(
-            "The time from telegram to telegram as it is. It stays 0 where the inverter lacks cyclic \
+            "The time from telegram to telegram as it is; 0 as delivered. It stays 0 where the inverter lacks cyclic \
              mode (see FU_HSP5Supp7) or there is no data exchange."
         )
     )
@@ -376,18 +419,17 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         Spec::new("pdout_take_mode", "PDOUT TakeMode")
             .names(&[
                 Name { value: 0, label: "always", note: "" },
-                Name {
-                    value: 1,
-                    label: "during data exchange only",
-                    note: "As any value but 0, 240 and 241."
-                },
                 Name { value: 240, label: "unless all bytes are 0", note: "" },
                 Name { value: 241, label: "unless all bytes are 0, and during data exchange only", note: "" },
             ])
-            .note(
+            .ranges(&[
+                Range { from: 1, to: 239, label: "during data exchange only" },
+                Range { from: 242, to: 255, label: "during data exchange only" },
+            ])
+            .note(kept!(
                 "When process output data are passed on to the inverter, so that it need not take the \
                  zeros of a bus that stopped; 0 as delivered."
-            )
+            ))
     )
     .length(1),
     operator(
@@ -395,7 +437,8 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         "Fb41",
         Spec::new("fbs_command", "FBS Command")
             .bits(keb_f5::COMMAND)
-            .note("Has the operator do something; it sets bit 15 once that is done.")
+            .only_named()
+            .note("Has the operator do something; it sets bit 15 once that is done. 0 as delivered.")
     )
     .length(2)
     .since("1.5"),
@@ -408,7 +451,8 @@ static PARAMETERS: &[Parameter] = with_descriptions![
                 Bits::flag(1, "parameter_job", "first job of the parameter channel"),
             ])
             .names(&[Name { value: 0, label: "power on", note: "" }])
-            .note("What starts the watchdog of the bus; 0 as delivered. See Watchdog Inhibit, too.")
+            .only_named()
+            .note(kept!("What starts the watchdog of the bus; 0 as delivered. See Watchdog Inhibit, too."))
     )
     .length(1)
     .since("1.5"),
@@ -430,9 +474,14 @@ static PARAMETERS: &[Parameter] = with_descriptions![
                 Name { value: 0, label: "standard", note: "As any value but FFh." },
                 Name { value: 0xFF, label: "stored", note: "" },
             ])
-            .note("Which process data descriptions count; FFh as delivered. Section 9.1 calls it PD_Stored.")
+            .ranges(&[Range { from: 1, to: 254, label: "standard" }])
+            .initial(0xFF)
+            .note(kept!(
+                "Which process data descriptions count; FFh as delivered. Section 9.1 calls it PD_Stored."
+            ))
     )
-    .length(1),
+    .length(1)
+    .also("PD_Stored"),
     operator(
         0x5FF0,
         "SW_Version",
@@ -463,6 +512,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
                     "index and 32-bit value of the parameter channel low byte first"
                 ),
             ])
+            .only_named()
             .note(
                 "Which values come low byte first; 0 as delivered. Kept at once, but in force only after \
                  the next switching on."
@@ -475,7 +525,10 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         "Fb62",
         Spec::new("pd_out2_enable", "PD_Out2_Enable")
             .bits(BYTES_9_TO_16)
-            .note("Which of the bytes 9 to 16 of process output data are in use; 0 as delivered.")
+            .note(kept!(
+                "Which of the bytes 9 to 16 of process output data are in use; 0 as delivered. They go in a \
+                 telegram of their own, which halves the rate of process data."
+            ))
     )
     .length(1)
     .since("1.6"),
@@ -484,20 +537,24 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         "Fb52",
         Spec::new("pd_in2_enable", "PD_In2_Enable")
             .bits(BYTES_9_TO_16)
-            .note("Which of the bytes 9 to 16 of process input data are in use; 0 as delivered.")
+            .note(kept!(
+                "Which of the bytes 9 to 16 of process input data are in use; 0 as delivered. They go in a \
+                 telegram of their own, which halves the rate of process data."
+            ))
     )
     .length(1)
     .since("1.6"),
     operator(
         0x5FF8,
         "Fb10",
-        Spec::new("pd_in_enable", "PD_In_Enable").bits(BYTES_1_TO_8).note(
+        Spec::new("pd_in_enable", "PD_In_Enable").bits(BYTES_1_TO_8).initial(0x0F).note(
             "Which of the bytes 1 to 8 of process input data are in use; 0Fh as delivered. The \
              description goes to the inverter; if that refuses it, all stay off. Section 9.1 calls it \
              PE_Enabled, too."
         )
     )
-    .length(1),
+    .length(1)
+    .also("PE_Enabled"),
     operator(
         0x5FF9,
         "Fb40",
@@ -507,26 +564,30 @@ static PARAMETERS: &[Parameter] = with_descriptions![
                 Bits::flag(1, "parameter_job", "start of a parameter channel job"),
                 Bits::flag(2, "data_exchange", "data exchange"),
             ])
-            .note(
+            .only_named()
+            .initial(7)
+            .note(kept!(
                 "What resets the watchdog of the bus; 07h as delivered. The watchdog itself is set in the \
                  inverter."
-            )
+            ))
     )
     .length(1),
     operator(
         0x5FFA,
         "Fb09",
-        Spec::new("pd_in_cycle", "PD_In_Cycle").unit("ms").note(
-            "How often the process input data are fetched from the inverter; 25 ms as delivered. \
-             Section 9.1 calls it PE_Cycle, too."
-        )
+        Spec::new("pd_in_cycle", "PD_In_Cycle").unit("ms").initial(25).note(kept!(
+            "How often the process input data are fetched from the inverter; 25 ms as delivered. With more \
+             than 8 bytes the second part is fetched directly after the first. Section 9.1 calls it \
+             PE_Cycle, too."
+        ))
     )
-    .length(2),
+    .length(2)
+    .also("PE_Cycle"),
     description(
         0x6000,
         1,
         "Fb00",
-        Spec::new("pd_in_length", "PD_In_Length").unit("bytes").limits(0, 16).note(
+        Spec::new("pd_in_length", "PD_In_Length").unit("bytes").limits(0, 16).initial(4).note(
             "How many bytes of process input data there are; 4 as delivered. Writing it switches them \
              off."
         )
@@ -536,7 +597,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         0x6001,
         1,
         "Fb12",
-        Spec::new("pd_out_length", "PD_Out_Length").unit("bytes").limits(0, 16).note(
+        Spec::new("pd_out_length", "PD_Out_Length").unit("bytes").limits(0, 16).initial(4).note(
             "How many bytes of process output data there are; 4 as delivered. Writing it switches them \
              off."
         )
@@ -545,9 +606,10 @@ static PARAMETERS: &[Parameter] = with_descriptions![
     operator(
         0x6002,
         "Fb21",
-        Spec::new("pd_out_enable", "PD_Out_Enable").bits(BYTES_1_TO_8).note(
+        Spec::new("pd_out_enable", "PD_Out_Enable").bits(BYTES_1_TO_8).initial(0x0F).note(
             "Which of the bytes 1 to 8 of process output data are in use; 0Fh as delivered. The \
-             description goes to the inverter; if that refuses it, all stay off."
+             description goes to the inverter; if that refuses it, all stay off. Outputs go on to the \
+             inverter only when they change."
         )
     )
     .length(1),
@@ -558,7 +620,7 @@ const fn operator(index: u16, id: &'static str, spec: Spec) -> Parameter {
     Parameter::new(index, id, spec.source(SOURCE)).subindex(0)
 }
 
-/// What 12.1 lists and nothing describes: for the maker's diagnosis, mostly without a subindex.
+/// What 12.1 lists and nothing describes: for the maker's diagnosis.
 const fn listed(
     index: u16,
     id: &'static str,
@@ -568,6 +630,7 @@ const fn listed(
     note: &'static str,
 ) -> Parameter {
     Parameter::new(index, id, Spec::new(key, label).format(format).note(note).source(LIST))
+        .subindex(0)
         .access(Access::Read)
 }
 
@@ -578,6 +641,104 @@ const fn process_data(index: u16, id: &'static str, key: &'static str, label: &'
 /// A part of a process data description.
 const fn description(index: u16, subindex: u8, id: &'static str, spec: Spec) -> Parameter {
     Parameter::new(index, id, spec.source(DESCRIPTIONS)).subindex(subindex)
+}
+
+/// The addresses of COMBIVIS (section 12.1): new, and before software 1.5.
+static ALIASES: &[Alias] = &[
+    combivis(0x2180, 0, Some(0x0180), None),
+    combivis(0x2181, 0, Some(0x0181), None),
+    combivis(0x2183, 0, Some(0x0183), None),
+    combivis(0x2184, 0, Some(0x0184), Some(0x0082)),
+    combivis(0x2185, 0, Some(0x0185), None),
+    combivis(0x5FE1, 0, Some(0x0186), Some(0x0084)),
+    combivis(0x2187, 0, Some(0x0187), Some(0x0087)),
+    combivis(0x2188, 0, Some(0x0188), None),
+    combivis(0x2190, 0, Some(0x0190), None),
+    combivis(0x2191, 0, Some(0x0191), None),
+    combivis(0x2192, 0, Some(0x0192), Some(0x00AD)),
+    combivis(0x2193, 0, Some(0x0193), Some(0x00AE)),
+    combivis(0x2194, 0, Some(0x0194), None),
+    combivis(0x2195, 0, Some(0x0195), None),
+    combivis(0x6000, 1, Some(0x0280), Some(0x0090)),
+    combivis(0x6000, 2, Some(0x0281), Some(0x0091)),
+    combivis(0x6000, 6, Some(0x0282), Some(0x0092)),
+    combivis(0x6000, 10, Some(0x0283), Some(0x0093)),
+    combivis(0x6000, 14, Some(0x0284), Some(0x0094)),
+    combivis(0x6000, 3, Some(0x0285), Some(0x0095)),
+    combivis(0x6000, 7, Some(0x0286), Some(0x0096)),
+    combivis(0x6000, 11, Some(0x0287), Some(0x0097)),
+    combivis(0x6000, 15, Some(0x0288), Some(0x0098)),
+    combivis(0x5FFA, 0, Some(0x0289), Some(0x00AF)),
+    combivis(0x5FF8, 0, Some(0x028A), Some(0x0099)),
+    combivis(0x228B, 0, Some(0x028B), Some(0x00B7)),
+    combivis(0x6001, 1, Some(0x028C), Some(0x009A)),
+    combivis(0x6001, 2, Some(0x028D), Some(0x009B)),
+    combivis(0x6001, 6, Some(0x028E), Some(0x009C)),
+    combivis(0x6001, 10, Some(0x028F), Some(0x009D)),
+    combivis(0x6001, 14, Some(0x0290), Some(0x009E)),
+    combivis(0x6001, 3, Some(0x0291), Some(0x009F)),
+    combivis(0x6001, 7, Some(0x0292), Some(0x00A0)),
+    combivis(0x6001, 11, Some(0x0293), Some(0x00A1)),
+    combivis(0x6001, 15, Some(0x0294), Some(0x00A2)),
+    combivis(0x6002, 0, Some(0x0295), Some(0x00A3)),
+    combivis(0x2296, 0, Some(0x0296), Some(0x00B8)),
+    combivis(0x5FE2, 0, Some(0x0297), Some(0x00A4)),
+    combivis(0x2298, 0, Some(0x0298), Some(0x00A5)),
+    combivis(0x2299, 0, Some(0x0299), Some(0x00A6)),
+    combivis(0x229A, 0, Some(0x029A), Some(0x00A7)),
+    combivis(0x229B, 0, Some(0x029B), Some(0x00A8)),
+    combivis(0x229C, 0, Some(0x029C), Some(0x00A9)),
+    combivis(0x229D, 0, Some(0x029D), Some(0x00AA)),
+    combivis(0x229E, 0, Some(0x029E), Some(0x00AB)),
+    combivis(0x229F, 0, Some(0x029F), Some(0x00AC)),
+    combivis(0x22A0, 0, Some(0x02A0), Some(0x00B6)),
+    combivis(0x22A1, 0, Some(0x02A1), Some(0x00B0)),
+    combivis(0x22A2, 0, Some(0x02A2), Some(0x00B1)),
+    combivis(0x22A3, 0, Some(0x02A3), Some(0x00B2)),
+    combivis(0x22A4, 0, Some(0x02A4), Some(0x00B3)),
+    combivis(0x22A5, 0, Some(0x02A5), Some(0x00B5)),
+    combivis(0x22A6, 0, Some(0x02A6), Some(0x00B4)),
+    combivis(0x5FDA, 0, Some(0x02A7), Some(0x00FC)),
+    combivis(0x5FF9, 0, Some(0x02A8), Some(0x008E)),
+    combivis(0x5FD9, 0, Some(0x02A9), None),
+    combivis(0x5FD8, 0, Some(0x02AA), None),
+    combivis(0x5FF4, 0, Some(0x02AB), None),
+    combivis(0x6000, 18, Some(0x02AC), None),
+    combivis(0x6000, 22, Some(0x02AD), None),
+    combivis(0x6000, 26, Some(0x02AE), None),
+    combivis(0x6000, 30, Some(0x02AF), None),
+    combivis(0x6000, 19, Some(0x02B0), None),
+    combivis(0x6000, 23, Some(0x02B1), None),
+    combivis(0x6000, 27, Some(0x02B2), None),
+    combivis(0x6000, 31, Some(0x02B3), None),
+    combivis(0x5FF6, 0, Some(0x02B4), None),
+    combivis(0x22B5, 0, Some(0x02B5), None),
+    combivis(0x6001, 18, Some(0x02B6), None),
+    combivis(0x6001, 22, Some(0x02B7), None),
+    combivis(0x6001, 26, Some(0x02B8), None),
+    combivis(0x6001, 30, Some(0x02B9), None),
+    combivis(0x6001, 19, Some(0x02BA), None),
+    combivis(0x6001, 23, Some(0x02BB), None),
+    combivis(0x6001, 27, Some(0x02BC), None),
+    combivis(0x6001, 31, Some(0x02BD), None),
+    combivis(0x5FF5, 0, Some(0x02BE), None),
+    combivis(0x22BF, 0, Some(0x02BF), None),
+    combivis(0x22C0, 0, Some(0x02C0), None),
+    combivis(0x22C1, 0, Some(0x02C1), None),
+    combivis(0x22C2, 0, Some(0x02C2), None),
+    combivis(0x22C3, 0, Some(0x02C3), None),
+    combivis(0x22C4, 0, Some(0x02C4), None),
+    combivis(0x22C5, 0, Some(0x02C5), None),
+    combivis(0x22C6, 0, Some(0x02C6), None),
+    combivis(0x22C7, 0, Some(0x02C7), None),
+    combivis(0x2196, 0, Some(0x0196), None),
+    combivis(0x2197, 0, Some(0x0197), None),
+    combivis(0x2198, 0, Some(0x0198), None),
+    combivis(0x2199, 0, Some(0x0199), None),
+];
+
+const fn combivis(address: u16, subindex: u8, new: Option<u16>, old: Option<u16>) -> Alias {
+    Alias { address, subindex, new, old }
 }
 
 static DISPLAY: &[Display] = &[
@@ -618,6 +779,18 @@ const fn shows(text: &'static str, meaning: &'static str) -> Display {
 
 const WORD_INDEX: Spec = Spec::new("word_index", "Index")
     .format(Format::HexAddress)
+    .rule(|index| match index as u16 {
+        0 => None,
+        index if index < keb_f5::inverter_address(0) => {
+            Some("no index is below 2000h: add 2000h to the parameter")
+        }
+        index if keb_f5::is_operators(index) || !keb_f5::INVERTER_INDICES.contains(&index) => {
+            Some("only parameters of the inverter can be process data: error 6-5-0000h")
+        }
+        _ => None,
+    })
+    .refers(|index| u16::try_from(index).ok().filter(|index| *index > 0))
+    .initial(0x2033)
     .names(&[Name {
         value: 0,
         label: "goes on with the word before",
@@ -627,6 +800,7 @@ const WORD_INDEX: Spec = Spec::new("word_index", "Index")
 
 const WORD_SET: Spec = Spec::new("word_set", "Set")
     .bits(&keb_f5::SETS)
+    .initial(1)
     .names(&[Name { value: 0, label: "no set", note: "" }])
     .note("In which sets of the parameter the word is. Writing it switches the data off.");
 

@@ -9,6 +9,7 @@ mod draft;
 pub mod keb_f5;
 mod keb_f5_modbus;
 mod keb_f5_profibus;
+mod likely;
 mod memograph_rsg45;
 mod read;
 
@@ -16,6 +17,7 @@ pub use display::Display;
 pub use draft::{Asked, Draft, Target, Task};
 pub use keb_f5::ProcessWord;
 pub use keb_f5_modbus::mapping_entry;
+pub use likely::{Likely, likelihood, one_of};
 pub use read::{Block, Numbers, Process, Registers, Said};
 
 use crate::field::{Spec, hex_value};
@@ -49,8 +51,16 @@ pub struct Profile {
     pub most_registers: Option<usize>,
     /// What its display shows when something is wrong.
     pub display: &'static [Display],
-    /// Registers that set up what others mean.
+    /// Registers that set up what others mean, or say how the device is at present.
     pub lessons: &'static [Lesson],
+    /// What the manual asks of registers beyond what their own descriptions say.
+    pub rules: &'static [Rule],
+    /// What its exception codes mean, where the manual has more of them than the standard.
+    pub exceptions: Option<&'static Spec>,
+    /// Other addresses of its parameters, as other programs of the maker count them.
+    pub aliases: &'static [Alias],
+    /// Telegrams that its manual misprints.
+    pub misprints: &'static [Misprint],
 }
 
 /// Registers from `from` on, `count` of them, that set up what others mean.
@@ -58,8 +68,42 @@ pub struct Profile {
 pub struct Lesson {
     pub from: u16,
     pub count: u16,
-    /// Takes the number of the register among them, the subindex, and the new value.
-    pub learn: fn(usize, u8, u32, &mut Settings),
+    /// A value that is read teaches, too.
+    pub read: bool,
+    pub learn: fn(&Taught, &mut Settings),
+}
+
+/// A value that was written, or read.
+#[derive(Clone, Copy, Debug)]
+pub struct Taught {
+    /// The register's number among those of the lesson.
+    pub n: usize,
+    pub subindex: u8,
+    pub value: u32,
+    pub written: bool,
+}
+
+/// Says what is wrong with registers.
+pub type Rule = fn(&'static Profile, &Registers<'_>, &Settings, &mut Said);
+
+/// An address of COMBIVIS, the program of the F5's maker.
+#[derive(Clone, Copy, Debug)]
+pub struct Alias {
+    pub address: u16,
+    pub subindex: u8,
+    /// From the first software on that counts so, and before; none where the manual gives none.
+    pub new: Option<u16>,
+    pub old: Option<u16>,
+}
+
+/// A telegram that a manual prints with slips.
+#[derive(Debug)]
+pub struct Misprint {
+    pub section: &'static str,
+    pub printed: &'static [u8],
+    pub right: &'static [u8],
+    /// Which slips they are.
+    pub slips: &'static str,
 }
 
 /// Registers, or indices of a parameter channel, that follow each other and hold the same kind of thing.
@@ -79,6 +123,33 @@ pub struct Area {
     pub content: Content,
     /// Bytes of a value, where one address holds more than a register of 16 bits.
     pub length: Option<usize>,
+    /// Each address is there in several parameter sets.
+    pub in_sets: bool,
+    /// The manual lists all that there is here: what has no name does not exist.
+    pub listed: bool,
+    /// To be written by the service for several registers, even where it is one.
+    pub together: bool,
+    /// What else the manual, or a person, calls it.
+    pub also: &'static str,
+    /// To be written with all its parts.
+    pub whole: bool,
+    /// Addresses in between that hold something else, and what.
+    pub between: Option<Between>,
+    /// How many registers the manual reads at once, where it does not read the whole block: the values that
+    /// have a name there.
+    pub reads: Option<&'static Spec>,
+    /// Adds to what is to be written what belongs to it.
+    pub completed: Option<Complete>,
+}
+
+/// Takes what is filled in and gives what is to be written.
+pub type Complete = fn(&[u8]) -> Vec<u8>;
+
+/// Addresses among those of an area that hold something else.
+#[derive(Clone, Copy, Debug)]
+pub struct Between {
+    pub has: fn(u16) -> bool,
+    pub spec: &'static Spec,
 }
 
 /// Whether the manual lets a client read or write it.
@@ -87,6 +158,8 @@ pub enum Access {
     Read,
     Write,
     ReadWrite,
+    /// It has a name, but this bus does not reach it.
+    Elsewhere,
 }
 
 /// What a block holds.
@@ -103,8 +176,8 @@ pub enum Content {
     Mapped,
 }
 
-/// Makes an empty telegram.
-pub type New = fn() -> Box<dyn Telegram>;
+/// Makes an empty telegram, for a device that is so at present.
+pub type New = fn(&Settings) -> Box<dyn Telegram>;
 
 /// A number within a block.
 #[derive(Debug)]
@@ -130,6 +203,8 @@ pub struct Parameter {
     pub access: Access,
     /// The software version from which on there is one, where the manual says so.
     pub since: &'static str,
+    /// What else the manual calls it.
+    pub also: &'static str,
     /// What it is called (the maker's name is the label, what it is for the note), and how its value is shown.
     pub spec: Spec,
 }
@@ -142,6 +217,29 @@ pub struct Settings {
     /// What the words of process data mean, towards the device and from it.
     pub process_output: Vec<ProcessWord>,
     pub process_input: Vec<ProcessWord>,
+    /// What the telegrams so far say of how the device is at present; nobody sets that up.
+    pub present: Present,
+}
+
+/// How a device is at present, as far as what was written and read before tells.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Present {
+    pub limits: Limits,
+    /// Reading limits gives one after the other, and no status.
+    pub limits_read_back: bool,
+    /// Whether each of four batches runs, where that is known.
+    pub batches: [Option<bool>; 4],
+}
+
+/// How far changing limits has come.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Limits {
+    /// Nothing was seen of it.
+    #[default]
+    Unseen,
+    Open,
+    Changed,
+    Accepted,
 }
 
 /// A list that gives registers their parameters, as an F5 Modbus operator holds it.
@@ -150,6 +248,22 @@ pub struct Mapping {
     /// The register that the first entry stands for.
     pub start: u16,
     pub entries: Vec<Entry>,
+    /// How many entries are in use, where that is known.
+    pub used: Option<usize>,
+}
+
+/// What a mapping list has for a register.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mapped {
+    /// Number and entry, and whether it is the second register of a 32-bit value: that has number and
+    /// entry of the first.
+    Entry(usize, Entry, bool),
+    /// It lies before the list.
+    Before,
+    /// Behind the entries that are in use.
+    Unused(usize),
+    /// Behind the entries that are known.
+    Unknown(usize),
 }
 
 /// An entry of a mapping list: parameter address (16 bits), set mask (8), words (8).
@@ -172,16 +286,17 @@ impl Entry {
 }
 
 impl Mapping {
-    /// Number and entry of the register at `address`, and whether it is the second one of a 32-bit
-    /// value: that has the number and the entry of the first.
-    pub fn entry(&self, address: u16) -> Option<(usize, Entry, bool)> {
-        let n = usize::from(address.checked_sub(self.start)?);
-        match self.entries.get(n)? {
-            Entry(0) => {
-                let before = n.checked_sub(1)?;
-                Some((before, self.entries[before], true)).filter(|(_, entry, _)| entry.words() == 2)
-            }
-            entry => Some((n, *entry, false)),
+    /// What is behind the register at `address`.
+    pub fn entry(&self, address: u16) -> Mapped {
+        let Some(n) = address.checked_sub(self.start).map(usize::from) else { return Mapped::Before };
+        if let Some(used) = self.used.filter(|used| n >= *used) {
+            return Mapped::Unused(used);
+        }
+        let before = n.checked_sub(1).map(|before| (before, self.entries.get(before)));
+        match (self.entries.get(n), before) {
+            (Some(Entry(0)), Some((n, Some(entry)))) if entry.words() == 2 => Mapped::Entry(n, *entry, true),
+            (None | Some(Entry(0)), _) => Mapped::Unknown(self.entries.len()),
+            (Some(entry), _) => Mapped::Entry(n, *entry, false),
         }
     }
 
@@ -202,6 +317,25 @@ impl Settings {
 }
 
 impl Profile {
+    /// What a device has that has nothing special: a table names only what it has.
+    pub const BLANK: Self = Self {
+        key: "",
+        label: "",
+        source: "",
+        functions: &[],
+        ident: None,
+        hex_addresses: false,
+        areas: &[],
+        parameters: &[],
+        most_registers: None,
+        display: &[],
+        lessons: &[],
+        rules: &[],
+        exceptions: None,
+        aliases: &[],
+        misprints: &[],
+    };
+
     /// The device with this key.
     pub fn of(key: &str) -> Option<&'static Self> {
         PROFILES.iter().copied().find(|profile| profile.key == key)
@@ -259,23 +393,36 @@ impl Profile {
         self.lessons.iter().find(|lesson| (lesson.from..lesson.from + lesson.count).contains(&address))
     }
 
-    /// Takes from a new value of `width` bytes how the device is set up from then on; says whether
-    /// that changes it.
+    /// Takes from a value of `width` bytes that was written or read how the device is set up from then on;
+    /// says whether that changes it.
     pub fn learn(
         &self,
         address: u16,
         subindex: u8,
         value: u32,
         width: usize,
+        written: bool,
         settings: &mut Settings,
     ) -> bool {
-        let Some(lesson) = self.lesson(address) else { return false };
+        let Some(lesson) = self.lesson(address).filter(|lesson| written || lesson.read) else { return false };
         if self.area(address).and_then(|area| area.length).is_some_and(|length| width < length) {
             return false;
         }
         let before = settings.clone();
-        (lesson.learn)(usize::from(address - lesson.from), subindex, value, settings);
+        let taught = Taught { n: usize::from(address - lesson.from), subindex, value, written };
+        (lesson.learn)(&taught, settings);
         *settings != before
+    }
+
+    /// Whether the subindex of `index` says in which sets a parameter is meant.
+    pub fn has_sets(&'static self, index: u16, subindex: u8) -> bool {
+        self.area(index).is_some_and(|area| area.in_sets && !area.is_between(index))
+            && self.named(index, Some(subindex)).is_none_or(keb_f5::has_sets)
+    }
+
+    /// Other addresses of a parameter.
+    pub fn alias(&self, address: u16, subindex: u8) -> Option<&'static Alias> {
+        self.aliases.iter().find(|alias| (alias.address, alias.subindex) == (address, subindex))
     }
 }
 
@@ -288,6 +435,7 @@ impl Default for Settings {
             write_mapping: Mapping::default(),
             process_output: keb_f5::STANDARD_OUTPUT.to_vec(),
             process_input: keb_f5::STANDARD_INPUT.to_vec(),
+            present: Present::default(),
         }
     }
 }
@@ -300,8 +448,24 @@ fn address_text(address: u16, hex: bool) -> String {
 impl Area {
     /// One block of one readable and writable number.
     pub const fn new(from: u16, spec: Spec) -> Self {
-        let access = Access::ReadWrite;
-        Self { spec, from, stride: 1, count: 1, first: None, access, content: Content::Value, length: None }
+        Self {
+            spec,
+            from,
+            stride: 1,
+            count: 1,
+            first: None,
+            access: Access::ReadWrite,
+            content: Content::Value,
+            length: None,
+            in_sets: false,
+            listed: false,
+            together: false,
+            also: "",
+            whole: false,
+            between: None,
+            reads: None,
+            completed: None,
+        }
     }
 
     /// `count` blocks of `stride` addresses, numbered from `first` in the manual's words.
@@ -325,6 +489,51 @@ impl Area {
     pub const fn length(mut self, length: usize) -> Self {
         self.length = Some(length);
         self
+    }
+
+    pub const fn in_sets(mut self) -> Self {
+        self.in_sets = true;
+        self
+    }
+
+    pub const fn listed(mut self) -> Self {
+        self.listed = true;
+        self
+    }
+
+    pub const fn together(mut self) -> Self {
+        self.together = true;
+        self
+    }
+
+    pub const fn also(mut self, also: &'static str) -> Self {
+        self.also = also;
+        self
+    }
+
+    pub const fn whole(mut self) -> Self {
+        self.whole = true;
+        self
+    }
+
+    pub const fn between(mut self, has: fn(u16) -> bool, spec: &'static Spec) -> Self {
+        self.between = Some(Between { has, spec });
+        self
+    }
+
+    pub const fn reads(mut self, reads: &'static Spec) -> Self {
+        self.reads = Some(reads);
+        self
+    }
+
+    pub const fn completed(mut self, completed: Complete) -> Self {
+        self.completed = Some(completed);
+        self
+    }
+
+    /// Whether something else than the rest stands at this address.
+    pub fn is_between(&self, address: u16) -> bool {
+        self.between.is_some_and(|between| (between.has)(address))
     }
 
     /// The last address.
@@ -355,7 +564,7 @@ impl Parameter {
     /// A readable and writable parameter.
     pub const fn new(address: u16, id: &'static str, spec: Spec) -> Self {
         let access = Access::ReadWrite;
-        Self { address, subindex: None, id, length: None, access, since: "", spec }
+        Self { address, subindex: None, id, length: None, access, since: "", also: "", spec }
     }
 
     pub const fn subindex(mut self, subindex: u8) -> Self {
@@ -370,6 +579,11 @@ impl Parameter {
 
     pub const fn access(mut self, access: Access) -> Self {
         self.access = access;
+        self
+    }
+
+    pub const fn also(mut self, also: &'static str) -> Self {
+        self.also = also;
         self
     }
 

@@ -1,6 +1,6 @@
 //! Reading registers and parameters by a device's table.
 
-use super::{Access, Area, Content, Mapping, Parameter, Part, Profile, Settings, address_text, keb_f5};
+use super::{Access, Area, Content, Mapped, New, Parameter, Part, Profile, Settings, address_text};
 use crate::field::{
     Argument, Field, Format, Message, Numbering, Order, Problem, Role, Span, Spec, Value, hex_value,
 };
@@ -17,6 +17,8 @@ pub struct Registers<'a> {
     pub width: usize,
     /// What the client wants of them: [`Access::Read`] or [`Access::Write`].
     pub access: Access,
+    /// They are written by the service for a single register.
+    pub single: bool,
     /// Their bytes, where the telegram has them.
     pub values: Option<&'a [u8]>,
     /// Where their bytes stand in the telegram, or else what names the registers.
@@ -55,6 +57,10 @@ pub struct Block {
     pub id: &'static str,
     /// What only this telegram's addresses tell: parameter set, mapping entry.
     pub note: Option<Message>,
+    /// The parameter that its value stands for: "Status word (Sy.51)".
+    pub stands_for: Option<Message>,
+    /// What the manual says of it besides its note: other addresses, software versions.
+    pub facts: Vec<Message>,
 }
 
 impl Said {
@@ -100,6 +106,15 @@ impl Block {
     }
 
     fn sentence(&self) -> Message {
+        match &self.stands_for {
+            Some(parameter) => {
+                message!("{said}: {parameter}", said = self.plain_sentence(), parameter = parameter.clone())
+            }
+            None => self.plain_sentence(),
+        }
+    }
+
+    fn plain_sentence(&self) -> Message {
         let label = self.label();
         let numbers = self.leaves().filter(|leaf| leaf.spec.role != Role::Status).count();
         match (self.value(), self.status()) {
@@ -140,13 +155,23 @@ impl Block {
 
     /// The leaves of some roles one behind the other, with their names where there are several.
     fn told(&self, role: fn(Role) -> bool) -> Option<Message> {
+        // Switches are named one by one: where some are on, the others need no word.
+        let off = |leaf: &Field| leaf.spec.flagged.is_some() && leaf.value.raw() == Some(0);
+        let some_on = self.leaves().any(|leaf| leaf.spec.flagged.is_some() && !off(leaf));
         let leaves: Vec<(&Field, Message)> = self
             .leaves()
-            .filter(|leaf| role(leaf.spec.role))
+            .filter(|leaf| role(leaf.spec.role) && !(some_on && off(leaf)))
             .filter_map(|leaf| shown(leaf).map(|value| (leaf, value)))
             .collect();
-        let several = leaves.len() > 1;
+        // A lone status that is not the block itself says what it is a status of.
+        let alone = leaves.len() == 1
+            && leaves.iter().any(|(leaf, _)| {
+                leaf.spec.role == Role::Status && leaf.spec.only_named && leaf.spec != self.field.spec
+            })
+            && self.leaves().filter(|leaf| shown(leaf).is_some()).count() == 1;
+        let several = leaves.len() > 1 || alone;
         Message::list(leaves.into_iter().map(|(leaf, value)| match leaf.value {
+            _ if some_on && leaf.spec.flagged.is_some() => value,
             Value::Number { .. } | Value::Text(_) if several => {
                 message!("{label} {value}", label = leaf.label(), value = value)
             }
@@ -162,8 +187,20 @@ impl Block {
 /// A leaf's value as a sentence has it: by name or by parts where it has some.
 fn shown(leaf: &Field) -> Option<Message> {
     match &leaf.value {
-        Value::Number { raw, .. } if leaf.spec.name(*raw).is_some() || !leaf.spec.bits.is_empty() => {
+        Value::Number { raw, .. } if leaf.spec.name(*raw).is_some_and(|name| name.label.is_empty()) => None,
+        Value::Number { raw, .. }
+            if leaf.spec.name(*raw).is_some()
+                || leaf.spec.range(*raw).is_some()
+                || !leaf.spec.bits.is_empty() =>
+        {
             leaf.meaning()
+        }
+        Value::Text(text) => {
+            let text = Argument::Text(text.trim_end_matches(' ').to_owned());
+            Some(match leaf.meaning() {
+                Some(told) => message!("“{text}” ({told})", text = text, told = told),
+                None => message!("“{text}”", text = text),
+            })
         }
         Value::Number { .. } if leaf.spec.format == Format::DayMonthYear => leaf.meaning(),
         Value::Selector { chosen, .. } => Some(Message::term(chosen.label)),
@@ -187,7 +224,6 @@ impl Profile {
                 ),
             ));
         }
-        let mapping = settings.mapping(registers.access);
         let mapped = self.area(registers.start).is_some_and(|area| matches!(area.content, Content::Mapped));
         if mapped && registers.count > MOST_MAPPED {
             said.problems.push(Problem::error(
@@ -200,16 +236,24 @@ impl Profile {
                 ),
             ));
         }
+        if mapped && registers.width > 2 {
+            let message = message!("the mapping lists serve the functions for 16 bits only: 3, 4, 6 and 16");
+            said.problems.push(Problem::warning("not-mapped", registers.span, message));
+        }
         // What goes past the last address is nothing that a table could know.
         let count = registers.count.min(usize::from(u16::MAX - registers.start) + 1).min(MOST_SHOWN);
         let mut done = 0;
         while done < count {
             let address = registers.start + done as u16;
             let here = Here { registers, address, left: count - done, hex: self.hex_addresses };
-            let block = self.block(&here, mapping);
+            let mut block = self.block(&here, settings);
             done += usize::from(block.to - block.from) + 1;
+            // What is said of many registers alike is said once.
+            let said_before = said.blocks.last().map_or(&[][..], |before| &before.field.problems);
+            block.field.problems.retain(|problem| !said_before.contains(problem));
             said.blocks.push(block);
         }
+        self.rules.iter().for_each(|rule| rule(self, registers, settings, &mut said));
         said
     }
 
@@ -226,32 +270,107 @@ impl Profile {
         let value = value.filter(|(bytes, _)| bytes.len() <= 8);
         let big_endian = value.map(|(bytes, order)| Order::Big.bytes(order.number(bytes), bytes.len()));
         let width = value.map_or(0, |(bytes, _)| bytes.len());
-        let registers =
-            Registers { start: index, count: 1, width, access, values: big_endian.as_deref(), span };
+        let registers = Registers {
+            start: index,
+            count: 1,
+            width,
+            access,
+            single: false,
+            values: big_endian.as_deref(),
+            span,
+        };
         let here = Here { registers: &registers, address: index, left: 1, hex: self.hex_addresses };
-        let mut block = match self.named(index, Some(subindex)) {
+        let named = self.named(index, Some(subindex));
+        let has_sets = self.has_sets(index, subindex);
+        // A parameter that has one subindex only is meant, whatever the subindex.
+        let only = || self.parameters().find(|it| it.address == index && it.subindex == Some(0));
+        let mut block = match named.or_else(only) {
             Some(parameter) => {
                 let mut block = here.single(&parameter.spec, None, parameter.access);
-                block.id = parameter.id;
-                if let Some(length) = parameter.length.filter(|length| value.is_some() && width < *length) {
-                    block.field.problems.push(too_short(&parameter.spec, length, width, span));
-                }
+                here.fit(&mut block.field, &parameter.spec, parameter.length);
+                self.dress(&mut block, parameter);
                 block
             }
-            None => self.block(&here, &Mapping::default()),
+            None => self.block(&here, &Settings::default()),
         };
-        // The subindex is a set mask only where the table does not use it otherwise.
-        if keb_f5::INVERTER_INDICES.contains(&index)
-            && self.named(index, Some(subindex)).is_none_or(keb_f5::has_sets)
-        {
-            let sets = set_names(subindex);
+        block.note = has_sets.then(|| set_names(subindex));
+        if has_sets {
             block.field.problems.extend(here.sets_must_agree(subindex));
-            block.note = Some(match block.note {
-                Some(note) => message!("{note}; {sets}", note = note, sets = sets),
-                None => sets,
-            });
+        } else if named.is_none()
+            && let Some(problem) = self.no_such_subindex(index, subindex, span)
+        {
+            block.field.problems.retain(|problem| problem.code != "not-listed");
+            block.field.problems.push(problem);
         }
         Said { blocks: vec![block], problems: Vec::new() }
+    }
+
+    /// What is wrong with a subindex that an index of parts, or of one, does not have.
+    fn no_such_subindex(&'static self, index: u16, subindex: u8, span: Span) -> Option<Problem> {
+        let mut parts: Vec<u8> =
+            self.parameters().filter(|it| it.address == index).filter_map(|it| it.subindex).collect();
+        if parts.is_empty() && self.area(index).is_some_and(|area| area.is_between(index)) && subindex > 0 {
+            parts.push(0);
+        }
+        parts.sort_unstable();
+        let (first, last) = (*parts.first()?, *parts.last()?);
+        let index = self.address(index);
+        Some(Problem::warning(
+            "no-such-subindex",
+            span,
+            if first == last {
+                message!(
+                    "{index} has subindex {first} only: the slave refuses {subindex} with error 6-5-0011h",
+                    index = index,
+                    first = first,
+                    subindex = subindex
+                )
+            } else {
+                message!(
+                    "{index} has the subindices {first} to {last}: the slave refuses {subindex} with error 6-5-0011h",
+                    index = index,
+                    first = first,
+                    last = last,
+                    subindex = subindex
+                )
+            },
+        ))
+    }
+
+    /// Says of a block what is known of its parameter besides its value.
+    fn dress(&'static self, block: &mut Block, parameter: &'static Parameter) {
+        block.id = parameter.id;
+        let subindex = parameter.subindex.unwrap_or_default();
+        if let Some(alias) = self.alias(parameter.address, subindex) {
+            let address = |address: u16| hex_value(address.into(), 2);
+            block.facts.extend(match (alias.new, alias.old) {
+                (Some(new), Some(old)) => {
+                    Some(message!("in COMBIVIS {new}, before {old}", new = address(new), old = address(old)))
+                }
+                (Some(only), None) | (None, Some(only)) => {
+                    Some(message!("in COMBIVIS {address}", address = address(only)))
+                }
+                (None, None) => None,
+            });
+        }
+        if !parameter.since.is_empty() {
+            let since = parameter.since.to_owned();
+            block.facts.push(message!("from software version {since} on", since = since));
+        }
+        if let (Some(refers), Some(raw)) = (parameter.spec.refers, block.field.value.raw()) {
+            block.stands_for = refers(raw).and_then(|address| self.parameter_label(address));
+        }
+    }
+
+    /// What the parameter at `address` is called.
+    fn parameter_label(&'static self, address: u16) -> Option<Message> {
+        let parameter = self.parameters().find(|it| it.address == address)?;
+        Some(match parameter.id {
+            "" => Message::term(parameter.spec.label),
+            id => {
+                message!("{label} ({id})", label = Argument::Term(parameter.spec.label), id = id.to_owned())
+            }
+        })
     }
 
     /// What the mapping says about process data.
@@ -274,27 +393,50 @@ impl Profile {
                 self.parameter(entry.index, entry.sets, access, Some((&bytes, process.order)), span);
             said.blocks.extend(parameter.blocks);
         }
+        // Words that are there, but of which nobody said what they carry.
+        for (at, word) in process.bytes.chunks_exact(2).enumerate().skip(mapped.len()) {
+            let offset = process.span.from + 2 * at;
+            let raw = process.order.number(word);
+            let mut field =
+                Field::new(&UNKNOWN_WORD, Span::new(offset, offset + 2), Value::Number { raw, width: 2 });
+            field.number = Some(Numbering::At(at as u64 + 1));
+            let index = if process.output { 0x6001 } else { 0x6000 };
+            let note = message!(
+                "what it carries, only the process data description ({index}) tells",
+                index = address_text(index, self.hex_addresses)
+            );
+            said.blocks
+                .push(Block { note: Some(note), ..Block::new(field, index, index, self.hex_addresses) });
+        }
         said
     }
 
     /// The parameter at an address.
-    fn named(&'static self, address: u16, subindex: Option<u8>) -> Option<&'static Parameter> {
+    pub(super) fn named(&'static self, address: u16, subindex: Option<u8>) -> Option<&'static Parameter> {
         self.parameters().find(|parameter| {
             parameter.address == address && (parameter.subindex.is_none() || parameter.subindex == subindex)
         })
     }
 
-    fn block(&'static self, here: &Here<'_>, mapping: &Mapping) -> Block {
+    fn block(&'static self, here: &Here<'_>, settings: &Settings) -> Block {
+        let area = self.area(here.address);
         if let Some(parameter) = self.named(here.address, None) {
             let mut block = here.whole(&parameter.spec, None, parameter.access, parameter.length);
-            block.id = parameter.id;
+            self.dress(&mut block, parameter);
+            block.note = area.filter(|_| self.has_sets(here.address, 0)).map(|_| set_names(0));
             return block;
         }
-        let Some(area) = self.area(here.address) else {
+        let Some(area) = area else {
             let next = self.areas.iter().map(|area| area.from).filter(|from| *from > here.address).min();
             return here.unknown(next);
         };
-        match area.content {
+        if let Some(between) = area.between.filter(|_| area.is_between(here.address)) {
+            let number = Some(Numbering::At(here.address.into()));
+            let mut block = here.single(between.spec, number, Access::ReadWrite);
+            block.field.problems.push(here.not_listed());
+            return block;
+        }
+        let mut block = match area.content {
             Content::Value if area.length.is_some() => {
                 let number =
                     area.first.map(|first| Numbering::At(first + u64::from(here.address - area.from)));
@@ -302,50 +444,98 @@ impl Profile {
             }
             Content::Value => here.values(area, &[], &area.spec),
             Content::Parts(parts) => here.values(area, parts, &area.spec),
-            Content::Telegram { read, write } => {
-                let new = if here.registers.access == Access::Write { write } else { read };
-                here.telegram(area, new.filter(|_| here.address == area.from).map(|new| new()))
-            }
-            Content::Mapped => self.mapped(here, area, mapping),
+            Content::Telegram { read, write } => here.telegram(self, area, (read, write), settings),
+            Content::Mapped => return self.mapped(here, area, settings),
+        };
+        if area.listed {
+            block.field.problems.push(here.not_listed());
         }
+        if area.in_sets {
+            block.note = Some(set_names(0));
+        }
+        if let (Some(refers), Some(raw)) = (area.spec.refers, block.field.value.raw()) {
+            block.stands_for = refers(raw).and_then(|address| self.parameter_label(address));
+        }
+        block
     }
 
     /// A register that stands for a parameter by the user's mapping list.
-    fn mapped(&'static self, here: &Here<'_>, area: &'static Area, mapping: &Mapping) -> Block {
+    fn mapped(&'static self, here: &Here<'_>, area: &'static Area, settings: &Settings) -> Block {
         let number = Some(Numbering::At(here.address.into()));
-        let Some((n, entry, second)) = mapping.entry(here.address) else {
-            let mut block = here.single(&area.spec, number, area.access);
-            block.note = Some(match mapping.entries.len() {
-                0 => message!("which parameter it is, only the mapping list tells"),
-                known => {
-                    message!("the mapping list, as far as it is known, has {known} entries", known = known)
-                }
-            });
-            return block;
+        let mapping = settings.mapping(here.registers.access);
+        if here.registers.width > 2 {
+            return here.single(&area.spec, number, area.access);
+        }
+        let (n, entry, second) = match mapping.entry(here.address) {
+            Mapped::Entry(n, entry, second) => (n, entry, second),
+            nowhere => {
+                let mut block = here.single(&area.spec, number, area.access);
+                let message = match nowhere {
+                    Mapped::Unknown(0) => {
+                        block.note = Some(message!("which parameter it is, only the mapping list tells"));
+                        return block;
+                    }
+                    Mapped::Before => message!(
+                        "it lies before the mapping list, which begins at {start}",
+                        start = self.address(mapping.start)
+                    ),
+                    Mapped::Unused(used) => message!(
+                        "it lies behind the mapping list, of which {n} in use",
+                        n = match used {
+                            1 => message!("1 entry is"),
+                            used => message!("{n} entries are", n = used),
+                        }
+                    ),
+                    _ => message!(
+                        "the mapping list, as far as it is known, has {n}",
+                        n = match mapping.entries.len() {
+                            1 => message!("1 entry"),
+                            known => message!("{n} entries", n = known),
+                        }
+                    ),
+                };
+                block.field.problems.push(Problem::warning("not-mapped", here.registers.span, message));
+                return block;
+            }
         };
         let address = 0x2000_u16.wrapping_add(entry.parameter());
+        let named = self.named(address, None);
         let words = if entry.words() == 2 && here.registers.width == 2 { 2 } else { 1 };
-        let spec = match self.named(address, None) {
+        let spec = match named {
             Some(parameter) => &parameter.spec,
             None => self.areas.iter().find(|area| area.from == 0x2000).map_or(&area.spec, |area| &area.spec),
         };
-        let named = self.named(address, None);
+        let access = named.map_or(area.access, |parameter| parameter.access);
         let number = named.is_none().then_some(Numbering::At(entry.parameter().into()));
-        let mut block = if words == 2 && (second || here.left < 2) {
+        // The entry behind one of 32 bits is its second half, and must be empty.
+        let taken = words == 2 && mapping.entries.get(n + 1).is_some_and(|next| next.0 != 0);
+        let mut block = if words == 2 && (second || taken || here.left < 2) {
             let mut block = here.cut(spec, 1);
-            block.field.problems.push(Problem::error(
-                "half-value",
-                here.registers.span,
-                message!(
+            let message = match taken {
+                true => message!(
+                    "mapping entry {n} is a 32-bit value, but entry {next}, its second half, is not empty",
+                    n = n,
+                    next = n + 1
+                ),
+                false => message!(
                     "mapping entry {n} is a 32-bit value over two registers: one alone cannot be read or written",
                     n = n
                 ),
-            ));
+            };
+            block.field.problems.push(Problem::error("half-value", here.registers.span, message));
+            here.check_access(&mut block.field, access);
             block
         } else {
-            here.numbers(spec, number, area.access, &[(spec, words)], words)
+            let mut block = here.numbers(spec, number, access, &[(spec, words)], words);
+            let length = named.and_then(|parameter| parameter.length);
+            if let Some(length) = length.filter(|length| 2 * words < *length) {
+                block.field.problems.push(too_short(spec, length, 2 * words, here.registers.span));
+            }
+            block
         };
-        block.id = named.map_or("", |parameter| parameter.id);
+        if let Some(parameter) = named {
+            self.dress(&mut block, parameter);
+        }
         block.note = Some(message!(
             "mapping entry {n}: parameter {parameter}, {sets}",
             n = n,
@@ -354,6 +544,12 @@ impl Profile {
         ));
         block.field.problems.extend(here.sets_must_agree(entry.sets()));
         block
+    }
+}
+
+impl Block {
+    pub(super) fn new(field: Field, from: u16, to: u16, hex: bool) -> Self {
+        Self { field, from, to, hex, id: "", note: None, stands_for: None, facts: Vec::new() }
     }
 }
 
@@ -415,7 +611,7 @@ impl Here<'_> {
 
     fn of(&self, field: Field, count: usize) -> Block {
         let to = self.address.saturating_add(count.saturating_sub(1) as u16);
-        Block { field, from: self.address, to, hex: self.hex, id: "", note: None }
+        Block::new(field, self.address, to, self.hex)
     }
 
     /// A number of one register.
@@ -433,13 +629,51 @@ impl Here<'_> {
     ) -> Block {
         let Registers { span, width, .. } = *self.registers;
         let Some(length) = length.filter(|length| width < *length) else {
-            return self.single(spec, number, access);
+            let mut block = self.single(spec, number, access);
+            self.fit(&mut block.field, spec, length);
+            return block;
         };
         let mut block = self.cut(spec, 1);
         block.field.number = number;
         self.check_access(&mut block.field, access);
         block.field.problems.push(too_short(spec, length, width, span));
         block
+    }
+
+    /// Takes the number of a field for one of `length` bytes, which may have come in more or in fewer.
+    fn fit(&self, field: &mut Field, spec: &'static Spec, length: Option<usize>) {
+        let (Some(length), Value::Number { raw, width }) = (length, field.value.clone()) else { return };
+        let span = self.registers.span;
+        if width < length {
+            field.problems.push(too_short(spec, length, width, span));
+            return;
+        }
+        let bits = 8 * length as u32;
+        let high = raw.checked_shr(bits).unwrap_or_default();
+        let ones = u64::MAX >> (64 - 8 * width) >> bits.min(63);
+        let negative =
+            spec.format == Format::Signed && width > length && high == ones && raw >> (bits - 1) & 1 == 1;
+        if high == 0 || negative {
+            field.value = Value::Number { raw: raw & u64::MAX >> (64 - bits), width: length };
+            return;
+        }
+        field.problems.push(Problem::warning(
+            "value-too-long",
+            span,
+            message!(
+                "{name} has {length}; {raw} does not fit",
+                name = Argument::Term(spec.label),
+                length = Message::bytes(length),
+                raw = hex_value(raw, width)
+            ),
+        ));
+    }
+
+    /// What there is to say of an address that the manual does not list.
+    fn not_listed(&self) -> Problem {
+        let address = address_text(self.address, self.hex);
+        let message = message!("the manual lists nothing at {address}", address = address);
+        Problem::warning("not-listed", self.registers.span, message)
     }
 
     /// The area's block at this address, with the parts that the telegram has of it.
@@ -466,9 +700,22 @@ impl Here<'_> {
         let widths: Vec<_> =
             wanted.iter().map(|(part, registers)| (part.spec(self.registers.access), *registers)).collect();
         let mut block = self.numbers(spec, number, area.access, &widths, there);
+        self.check_service(&mut block.field, area);
         let Some((at, (part, _))) =
             wanted.iter().enumerate().find(|(_, (part, registers))| *registers < usize::from(part.registers))
         else {
+            let left_out = widths.len() < parts.len() && self.registers.access == Access::Write;
+            if left_out && area.whole && !self.registers.single {
+                let label = block.field.label();
+                let message = message!(
+                    "{label} is to be written whole: {count} registers from {from}",
+                    label = label,
+                    count = area.stride,
+                    from = address_text(self.address - inside, self.hex)
+                );
+                let span = self.registers.span;
+                block.field.problems.push(Problem::warning("block-not-whole", span, message));
+            }
             return block;
         };
         // A piece of a number is no number.
@@ -524,21 +771,54 @@ impl Here<'_> {
         self.of(Field::new(spec, span, if bytes.is_some() { Value::Bytes } else { Value::Group }), count)
     }
 
-    /// A telegram within the registers.
-    fn telegram(&self, area: &'static Area, telegram: Option<Box<dyn Telegram>>) -> Block {
-        let count = usize::from(area.last() - self.address + 1).min(self.left);
+    /// A telegram within the registers. What is written is its own up to where the next thing begins.
+    fn telegram(
+        &self,
+        profile: &'static Profile,
+        area: &'static Area,
+        (read, write): (Option<New>, Option<New>),
+        settings: &Settings,
+    ) -> Block {
+        let written = self.registers.access == Access::Write;
+        let next = profile.areas.iter().map(|area| area.from).filter(|from| *from > self.address).min();
+        let end = if written { next } else { area.last().checked_add(1) };
+        let count = end.map_or(self.left, |end| usize::from(end - self.address)).min(self.left);
         let (span, bytes) = self.bytes(count);
         let mut field = Field::new(&area.spec, span, Value::Group);
-        match (telegram, bytes) {
-            (Some(mut telegram), Some(bytes)) => {
-                field.children = walk::read(telegram.as_mut(), bytes).fields;
+        let begins = self.address == area.from;
+        let new = if written { write } else { read };
+        match (new.filter(|_| begins || written), bytes) {
+            (Some(new), Some(bytes)) => {
+                field.children = walk::read(new(settings).as_mut(), bytes).fields;
                 field.children.iter_mut().for_each(|child| child.shift(span.from));
             }
             (None, Some(_)) => field.value = Value::Bytes,
             (_, None) => {}
         }
         self.check_access(&mut field, area.access);
-        self.of(field, count)
+        self.check_service(&mut field, area);
+        let mut block = self.of(field, count);
+        if !begins {
+            let label = Argument::Term(area.spec.label);
+            let from = address_text(area.from, self.hex);
+            let message = message!("{label} begins at {from}", label = label, from = from);
+            if written {
+                let span = self.registers.span;
+                block.field.problems.push(Problem::warning("not-at-its-beginning", span, message));
+            } else {
+                block.note = Some(message);
+            }
+        }
+        block
+    }
+
+    /// Says so where what is written needs the service for several registers.
+    fn check_service(&self, field: &mut Field, area: &'static Area) {
+        if area.together && self.registers.single && self.registers.access == Access::Write {
+            let label = Argument::Term(area.spec.label);
+            let message = message!("{label} can only be written with function 16", label = label);
+            field.problems.push(Problem::error("function-16", self.registers.span, message));
+        }
     }
 
     /// Registers that the manual does not name, up to the next that it does.
@@ -562,6 +842,12 @@ impl Here<'_> {
             (Access::Write, Access::Read) => {
                 ("write-only", |label| message!("{label} can only be written", label = label))
             }
+            (Access::Elsewhere, _) => ("not-reachable", |label| {
+                message!(
+                    "{label} cannot be reached over this bus, only at the diagnosis interface",
+                    label = label
+                )
+            }),
             _ => return,
         };
         field.problems.push(Problem::error(code, self.registers.span, template(field.label())));
@@ -596,6 +882,10 @@ const MOST_SHOWN: usize = 256;
 
 /// Entries of a mapping list, each a word.
 const MOST_MAPPED: usize = 100;
+
+static UNKNOWN_WORD: Spec = Spec::new("process_word", "Process data word")
+    .format(Format::Register)
+    .note("A word of process data whose description was not seen.");
 
 static NOT_IN_MANUAL: Spec = UNKNOWN;
 static NOT_IN_HEX_MANUAL: Spec = UNKNOWN.hex_numbers();

@@ -26,6 +26,9 @@ const PROOF: u32 = 16;
 /// What the others' protocol counts for, in bits, where a telegram's own bytes prove none.
 const COMPANY: u32 = 4;
 
+/// What the choice of a device counts for.
+const DEVICE: u32 = 8;
+
 /// The same where some of the others prove it.
 const PROVEN_COMPANY: u32 = 12;
 
@@ -34,7 +37,7 @@ const PROVEN_COMPANY: u32 = 12;
 pub fn protocols(telegrams: &[Candidate<'_>], settings: &Settings) -> Vec<Choice> {
     let fits: Vec<Vec<Fit>> = telegrams
         .iter()
-        .map(|telegram| PROTOCOLS.iter().map(|protocol| (protocol.fit)(telegram.bytes, settings)).collect())
+        .map(|telegram| PROTOCOLS.iter().map(|protocol| fit(protocol, telegram.bytes, settings)).collect())
         .collect();
     let mut together = vec![0; PROTOCOLS.len()];
     for fits in &fits {
@@ -50,6 +53,16 @@ pub fn protocols(telegrams: &[Candidate<'_>], settings: &Settings) -> Vec<Choice
         .zip(fits)
         .map(|(telegram, fits)| choose(telegram, fits, common, (together[common], company)))
         .collect()
+}
+
+/// How well bytes fit a protocol, with what the device that is chosen speaks for or against it.
+fn fit(protocol: &Protocol, bytes: &[u8], settings: &Settings) -> Fit {
+    let mut fit = (protocol.fit)(bytes, settings);
+    // What a check proves, no choice takes away.
+    if let (Some(bus), 1..PROOF) = (settings.bus, fit.bits) {
+        fit.bits = if bus == protocol.bus() { fit.bits + DEVICE } else { fit.bits.saturating_sub(DEVICE) };
+    }
+    fit
 }
 
 /// `common` is the protocol that fits all telegrams best, by so many bits `together`; it counts for

@@ -1,4 +1,4 @@
-use super::{Format, Name};
+use super::{Format, Name, Range};
 
 /// Some bits of a number that say something of their own.
 ///
@@ -20,6 +20,8 @@ pub struct Bits {
     pub format: Format,
     /// What single values are called.
     pub names: &'static [Name],
+    /// What values without a name of their own are called, by where they lie.
+    pub ranges: &'static [Range],
     /// One or two sentences for a person who meets them for the first time.
     pub note: &'static str,
     /// Must be 0.
@@ -41,6 +43,7 @@ impl Bits {
             count,
             format: Format::Decimal,
             names: &[],
+            ranges: &[],
             note: "",
             reserved: false,
         }
@@ -58,6 +61,11 @@ impl Bits {
 
     pub const fn names(mut self, names: &'static [Name]) -> Self {
         self.names = names;
+        self
+    }
+
+    pub const fn ranges(mut self, ranges: &'static [Range]) -> Self {
+        self.ranges = ranges;
         self
     }
 
@@ -83,6 +91,17 @@ impl Bits {
     /// What `value` of these bits is called, if it has a name.
     pub fn name(&self, value: u64) -> Option<&'static Name> {
         self.names.iter().find(|name| name.value == value)
+    }
+
+    /// What `value` of these bits is called by where it lies, if it has no name of its own.
+    pub fn range(&self, value: u64) -> Option<&'static Range> {
+        self.ranges.iter().find(|range| (range.from..=range.to).contains(&value))
+    }
+
+    /// Whether these bits of `number` have a value that has words.
+    pub(super) fn defines(&self, number: u64) -> bool {
+        let value = self.of(number);
+        self.names.is_empty() || self.name(value).is_some() || self.range(value).is_some()
     }
 }
 

@@ -14,7 +14,7 @@ pub use bits::Bits;
 pub use facts::Facts;
 pub use message::{Argument, Message};
 pub use problem::{Problem, Severity};
-pub use spec::{Format, Name, Order, Role, Spec};
+pub use spec::{Format, Name, Order, Range, Role, Spec};
 pub use value::{Check, Value, escaped, float, hex, hex_value, number_text, parse_float, unescaped};
 
 /// A run of bytes: of a telegram, or of the text that it was read from.

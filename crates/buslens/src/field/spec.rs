@@ -26,6 +26,10 @@ pub struct Spec {
     pub rule: Option<fn(u64) -> Option<&'static str>>,
     /// What single values are called.
     pub names: &'static [Name],
+    /// What values without a name of their own are called, by where they lie.
+    pub ranges: &'static [Range],
+    /// The manual defines no values and bits but those with a name.
+    pub only_named: bool,
     /// One or two sentences for a person who meets the field for the first time.
     pub note: &'static str,
     /// Document and section.
@@ -40,6 +44,14 @@ pub struct Spec {
     pub order: Order,
     /// How many numbers an item of a list stands for: 8 for a byte of coils.
     pub step: u64,
+    /// What its flags are when they are set, and what is said when none is: "on", "all off".
+    pub flagged: Option<(&'static str, &'static str)>,
+    /// What the parts of a text say.
+    pub told: Option<fn(&str) -> Option<Message>>,
+    /// The address of the parameter that a value stands for, if it stands for one.
+    pub refers: Option<fn(u64) -> Option<u16>>,
+    /// What a form begins with.
+    pub initial: u64,
 }
 
 /// Keys are in the program only where something writes or reads them: the page that only shows
@@ -62,6 +74,14 @@ pub struct Name {
     pub label: &'static str,
     /// What follows from it, where that helps.
     pub note: &'static str,
+}
+
+/// Values that lie together and are called the same.
+#[derive(Debug, PartialEq)]
+pub struct Range {
+    pub from: u64,
+    pub to: u64,
+    pub label: &'static str,
 }
 
 /// What a field is for. The page gives each role a colour.
@@ -174,6 +194,8 @@ impl Spec {
             limits: None,
             rule: None,
             names: &[],
+            ranges: &[],
+            only_named: false,
             note: "",
             source: "",
             hex_numbers: false,
@@ -181,6 +203,10 @@ impl Spec {
             unit: "",
             order: Order::Big,
             step: 1,
+            flagged: None,
+            told: None,
+            refers: None,
+            initial: 0,
         }
     }
 
@@ -211,6 +237,36 @@ impl Spec {
 
     pub const fn names(mut self, names: &'static [Name]) -> Self {
         self.names = names;
+        self
+    }
+
+    pub const fn ranges(mut self, ranges: &'static [Range]) -> Self {
+        self.ranges = ranges;
+        self
+    }
+
+    pub const fn only_named(mut self) -> Self {
+        self.only_named = true;
+        self
+    }
+
+    pub const fn flagged(mut self, set: &'static str, none: &'static str) -> Self {
+        self.flagged = Some((set, none));
+        self
+    }
+
+    pub const fn told(mut self, told: fn(&str) -> Option<Message>) -> Self {
+        self.told = Some(told);
+        self
+    }
+
+    pub const fn refers(mut self, refers: fn(u64) -> Option<u16>) -> Self {
+        self.refers = Some(refers);
+        self
+    }
+
+    pub const fn initial(mut self, initial: u64) -> Self {
+        self.initial = initial;
         self
     }
 
@@ -281,6 +337,20 @@ impl Spec {
     /// What `value` is called, if it has a name.
     pub fn name(&self, value: u64) -> Option<&'static Name> {
         self.names.iter().find(|name| name.value == value)
+    }
+
+    /// What `value` is called by where it lies, if it has no name of its own.
+    pub fn range(&self, value: u64) -> Option<&'static Range> {
+        self.ranges.iter().find(|range| (range.from..=range.to).contains(&value))
+    }
+
+    /// Whether `value` is one that the manual defines, where it defines all.
+    pub fn defines(&self, value: u64) -> bool {
+        if !self.only_named || self.name(value).is_some() || self.range(value).is_some() {
+            return true;
+        }
+        let known = self.bits.iter().fold(0, |mask, part| part.put(mask, u64::MAX));
+        !self.bits.is_empty() && value & !known == 0 && self.bits.iter().all(|part| part.defines(value))
     }
 
     pub fn allows(&self, value: u64) -> bool {

@@ -1,4 +1,4 @@
-use super::{Argument, Bits, Format, Message, Name, Numbering, Span, Spec};
+use super::{Argument, Bits, Format, Message, Name, Numbering, Range, Span, Spec};
 use crate::message;
 
 /// What a field held.
@@ -89,8 +89,10 @@ impl Value {
 
     pub(super) fn meaning(&self, spec: &'static Spec, number: Option<Numbering>) -> Option<Message> {
         match *self {
+            Self::Text(ref text) => spec.told.and_then(|told| told(text)),
             Self::Number { raw, width } => match spec.name(raw) {
                 Some(name) => Some(Message::term(name.label)),
+                None if spec.range(raw).is_some() => spec.range(raw).map(|range| in_range(range, raw, width)),
                 None if !spec.bits.is_empty() => Some(bits(raw, spec)),
                 None if spec.format == Format::Switches => Some(switches(raw, number)),
                 None => shown_otherwise(raw, width, spec.format),
@@ -112,9 +114,14 @@ impl Value {
                 found = found,
                 width = Message::bytes(width)
             )),
-            Self::Group | Self::Bytes | Self::Text(_) => None,
+            Self::Group | Self::Bytes => None,
         }
     }
+}
+
+/// What a value is called by where it lies, with the value itself: two of them can differ.
+fn in_range(range: &'static Range, raw: u64, width: usize) -> Message {
+    message!("{range} ({value})", range = Argument::Term(range.label), value = hex_value(raw, width))
 }
 
 /// A number of `width` bytes as a form shows it and takes it again.
@@ -187,6 +194,7 @@ fn bits(raw: u64, spec: &'static Spec) -> Message {
     let mut said = Vec::new();
     let mut parts = spec.bits;
     let mut known = 0;
+    let mut flags = 0;
     while let Some((part, rest)) = parts.split_first() {
         let alike = |other: &&Bits| is_set(other, raw) && numbered(part.label) == numbered(other.label);
         let run = if numbered(part.label).is_some() { parts.iter().take_while(alike).count() } else { 0 };
@@ -201,6 +209,7 @@ fn bits(raw: u64, spec: &'static Spec) -> Message {
             ),
             _ => (part_said(part, raw), rest),
         };
+        flags += usize::from(is_set(part, raw));
         known |= parts.iter().take(parts.len() - left.len()).fold(0, |mask, part| part.put(mask, u64::MAX));
         parts = left;
         said.extend(next);
@@ -208,7 +217,14 @@ fn bits(raw: u64, spec: &'static Spec) -> Message {
     if raw & !known != 0 {
         said.push(message!("bits without a meaning"));
     }
-    Message::list(said).unwrap_or(message!("nothing set"))
+    match (Message::list(said), spec.flagged) {
+        (Some(said), Some((set, _))) if flags > 0 => {
+            message!("{flags} {set}", flags = said, set = Argument::Term(set))
+        }
+        (Some(said), _) => said,
+        (None, Some((_, none))) => Message::term(none),
+        (None, None) => message!("nothing set"),
+    }
 }
 
 /// "set" of "set 7": what a label says before its number, if it ends with one.
@@ -228,6 +244,9 @@ fn part_said(part: &'static Bits, raw: u64) -> Option<Message> {
     match (part.name(value), part.count) {
         (Some(Name { label: "", .. }), _) => None,
         (Some(name), _) => Some(Message::term(name.label)),
+        (None, _) if part.range(value).is_some() => {
+            part.range(value).map(|range| in_range(range, value, part.count.div_ceil(8) as usize))
+        }
         (None, _) if part.reserved => (value != 0).then(|| message!("reserved bits")),
         (None, 1) => (value != 0).then(|| Message::term(part.label)),
         (None, count) => Some(message!(

@@ -74,6 +74,11 @@ impl Protocol {
         PROTOCOLS.iter().copied().find(|protocol| protocol.key == key)
     }
 
+    /// The bus that it is of.
+    pub fn bus(&self) -> Bus {
+        if self.key.starts_with("profibus") { Bus::Profibus } else { Bus::Modbus }
+    }
+
     /// Whether it is this one.
     pub fn is(&self, other: &Self) -> bool {
         std::ptr::eq(self, other)
@@ -135,11 +140,20 @@ impl Verdict {
 pub struct Settings {
     pub dialect: &'static Dialect,
     pub profibus: profibus::Settings,
+    /// What the device speaks, where one is chosen: telegrams are more likely of that.
+    pub bus: Option<Bus>,
+}
+
+/// A family of protocols.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bus {
+    Modbus,
+    Profibus,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { dialect: &STANDARD, profibus: profibus::Settings::default() }
+        Self { dialect: &STANDARD, profibus: profibus::Settings::default(), bus: None }
     }
 }
 

@@ -3,10 +3,10 @@
 //!
 //! They carry no sign of what they are. What speaks for one of them are values that it must have.
 
-use super::{Cargo, Content, Fit, Frame, Protocol, Settings, Speaker, Verdict};
+use super::{Bus, Cargo, Content, Fit, Frame, Protocol, Settings, Speaker, Verdict};
 use crate::field::{Direction, Message};
 use crate::message;
-use crate::profibus::{Body, Kind, parameter_channel};
+use crate::profibus::{self, Body, Kind, parameter_channel};
 use crate::walk::{Telegram, Walk, Walker};
 
 pub static PARAMETER_CHANNEL: Protocol = Protocol {
@@ -14,7 +14,9 @@ pub static PARAMETER_CHANNEL: Protocol = Protocol {
     label: "PROFIBUS parameter channel",
     fit: |bytes, settings| match bytes.len() {
         parameter_channel::LENGTH => Fit {
-            bits: parameter_channel::likeness(bytes, &settings.profibus),
+            // Of such a device eight bytes are one, whatever they say.
+            bits: parameter_channel::likeness(bytes, &settings.profibus)
+                .max(if settings.bus == Some(Bus::Profibus) { OF_DEVICE } else { 0 }),
             reason: message!("8 bytes with handshake bit and index, as a parameter channel has them"),
         },
         _ => unlike(),
@@ -99,6 +101,9 @@ pub static GLOBAL_CONTROL: Protocol = Protocol {
     ..WITHOUT_FRAME
 };
 
+/// What speaks for bytes of a device that speaks so.
+const OF_DEVICE: u32 = 3;
+
 /// What all of these have in common.
 const WITHOUT_FRAME: Protocol = Protocol {
     key: "",
@@ -134,7 +139,9 @@ struct Bare {
 
 impl Bare {
     fn expect(kind: &'static Kind, settings: &Settings) -> Box<dyn Frame> {
-        Box::new(Self { kind, body: (kind.new)(&settings.profibus) })
+        // Nothing but the layout tells where such bytes end.
+        let settings = profibus::Settings { told: true, ..settings.profibus.clone() };
+        Box::new(Self { kind, body: (kind.new)(&settings) })
     }
 }
 

@@ -91,27 +91,6 @@ pub(super) static CODE: Spec = Spec::new("exception", "Exception code")
             label: "gateway target does not respond",
             note: "Usually the device behind the gateway is off or not connected.",
         },
-        Name {
-            value: 64,
-            label: "internal buffer overflow (KEB)",
-            note: "The request is longer than the F5 operator can take: ask for less at once.",
-        },
-        Name {
-            value: 65,
-            label: "timeout towards the inverter (KEB)",
-            note: "The operator got no answer from the inverter behind it.",
-        },
-        Name {
-            value: 66,
-            label: "parameter is write-protected (KEB)",
-            note: "The inverter parameter can only be read, or not be written in this state.",
-        },
-        Name {
-            value: 67,
-            label: "wrong password (KEB)",
-            note: "The parameter needs a higher password level.",
-        },
     ]);
 
-/// Codes 1 to 11; KEB's 64 to 67 are in the F5 Modbus operator manual, section 4.2.
-const SOURCE: &str = "Modbus application protocol V1.1b3, 7; KEB COMBIVERT F5 Modbus operator, 4.2";
+const SOURCE: &str = "Modbus application protocol V1.1b3, 7";

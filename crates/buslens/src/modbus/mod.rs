@@ -332,6 +332,11 @@ impl Pdu {
         refusal
     }
 
+    /// Whether it is of the function for a single register.
+    pub fn is_single(&self) -> bool {
+        self.function == write_single_register::REQUEST.function
+    }
+
     /// Says so where a response confirms something else than was to be written.
     fn check_asked(&self, w: &mut dyn Walker) {
         let (Some((start, count, values)), Some(done)) = (&self.asked, self.body.access()) else { return };

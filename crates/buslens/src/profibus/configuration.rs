@@ -168,12 +168,32 @@ impl Modules {
         if !std::ptr::eq(spec, &MODULE) || SIDES.of(raw) == SPECIAL {
             return;
         }
-        if SIDES.of(raw) == BOTH_SIDES && !(byte == PARAMETER_CHANNEL && self.count == 1) {
+        if SIDES.of(raw) == BOTH_SIDES && byte != PARAMETER_CHANNEL {
+            w.remark(
+                &MODULE,
+                Severity::Warning,
+                "both-ways",
+                message!(
+                    "only the parameter channel of a KEB F5 goes both ways, as B7h: process data take a module for each way"
+                ),
+            );
+        } else if SIDES.of(raw) == BOTH_SIDES && self.count != 1 {
             w.remark(
                 &MODULE,
                 Severity::Warning,
                 "channel-not-first",
                 message!("the parameter channel of a KEB F5 must be the first module, as B7h"),
+            );
+        }
+        if !size(LENGTH.of(raw), raw).is_multiple_of(2) && size(LENGTH.of(raw), raw) > 1 {
+            w.remark(
+                &MODULE,
+                Severity::Warning,
+                "half-word",
+                message!(
+                    "a module of a KEB F5 has whole words of 2 bytes; this has {size} bytes",
+                    size = size(LENGTH.of(raw), raw)
+                ),
             );
         }
         if size(LENGTH.of(raw), raw) < 2 {

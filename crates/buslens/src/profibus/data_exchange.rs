@@ -8,6 +8,7 @@ pub static REQUEST: Kind = Kind {
     sap: None,
     direction: Direction::Request,
     spec: Spec::new("data_exchange_request", "Data exchange")
+        .short("Data_Exchange")
         .note("The master sends its outputs, and with them a job of the parameter channel.")
         .source(SOURCE),
     new: |settings| Box::new(UserData::exchanged(Side::Outputs, settings)),
@@ -17,6 +18,7 @@ pub static RESPONSE: Kind = Kind {
     sap: None,
     direction: Direction::Response,
     spec: Spec::new("data_exchange_response", "Data exchange")
+        .short("Data_Exchange")
         .note("The slave answers with its inputs, and with the confirmation of the last job.")
         .source(SOURCE),
     new: |settings| Box::new(UserData::exchanged(Side::Inputs, settings)),

@@ -11,7 +11,7 @@ pub mod configuration;
 mod data_exchange;
 mod get_cfg;
 mod global_control;
-mod ident;
+pub mod ident;
 pub mod jobs;
 mod no_data;
 pub mod parameter_channel;
@@ -87,6 +87,26 @@ pub struct Settings {
     pub layout: Layout,
     /// The ident number that the slave should have, where it is known.
     pub ident: Option<u16>,
+    /// The layout was told, by a person or by Chk_Cfg, and not only assumed.
+    pub told: bool,
+    /// The slave said that it must be set up, and nobody has done that since.
+    pub not_set_up: bool,
+}
+
+impl Settings {
+    /// Whether other user data than the layout says are no fault: it is only what is delivered.
+    pub fn is_assumed(&self) -> bool {
+        !self.told && self.layout == Layout::default()
+    }
+}
+
+/// How a slave is set up, as it says itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Diagnosis {
+    /// It wants to be set up before it exchanges data.
+    pub not_set_up: bool,
+    /// The last configuration does not fit it.
+    pub configuration_fault: bool,
 }
 
 /// What the cyclic user data of a slave consists of.
@@ -133,6 +153,16 @@ pub trait Body: Telegram {
     /// The layout of the user data, if the telegram says it.
     fn layout(&self) -> Option<Layout> {
         None
+    }
+
+    /// What the slave says of how it is set up, if this is its diagnosis.
+    fn diagnosis(&self) -> Option<Diagnosis> {
+        None
+    }
+
+    /// It sets up the slave.
+    fn sets_up(&self) -> bool {
+        false
     }
 }
 

@@ -102,6 +102,19 @@ impl Refusal {
         })
     }
 
+    /// Those that a slave can answer a request for this service with.
+    pub fn possible(service: Service) -> impl Iterator<Item = (Self, &'static Name)> {
+        Self::all().filter(move |(refusal, _)| {
+            let Self { class, code, additional } = *refusal;
+            match (class, code, additional) {
+                (5, 4, _) => service == Service::Both,
+                // What only happens where something is to be changed.
+                (6, 3, 0) | (6, 5, 0) | (8, 0, 0x30) => service == Service::Write,
+                _ => matches!(service, Service::Read | Service::Write),
+            }
+        })
+    }
+
     /// What the manual calls this error. Only all three numbers together say it.
     pub fn name(&self) -> Option<&'static Name> {
         self.additional_spec().name(self.additional.into())
@@ -237,7 +250,7 @@ impl Channel {
         let index = hex_value(self.index.into(), 2);
         match self.subindex {
             0 => message!("index {index}", index = index),
-            mask if INVERTER.contains(&self.index) => {
+            mask if has_sets(self.index) => {
                 let sets = (0..8).filter(|set| mask >> set & 1 == 1).map(|set: u8| set.to_string());
                 let sets = sets.collect::<Vec<_>>().join(", ");
                 match mask.count_ones() {
@@ -291,6 +304,13 @@ impl Telegram for Channel {
             Direction::Response => &RESPONSE_CONTROL,
         };
         w.u8(control, &mut self.control)?;
+        if let (Direction::Response, Service::Read, Content::Value(length @ ..DATA)) =
+            (self.direction, self.service(), self.content())
+        {
+            let message =
+                message!("a KEB F5 answers every read with 4 bytes; this has {length}", length = length);
+            w.remark(control, Severity::Warning, "read-length", message);
+        }
         if self.direction == Direction::Request && self.service() == Service::Both {
             w.remark(
                 control,
@@ -394,8 +414,16 @@ impl Channel {
     }
 }
 
-/// The indices of inverter parameters, for which the subindex is a set of sets.
-const INVERTER: std::ops::RangeInclusive<u16> = 0x2000..=0x5EFF;
+/// Whether an index is that of an inverter parameter, for which the subindex is a set of sets. From XX80h
+/// on, each group of parameters holds the operator's.
+pub fn has_sets(index: u16) -> bool {
+    (0x2000..=0x5EFF).contains(&index) && index & 0xFF < 0x80
+}
+
+/// What a subindex is: a set of sets, or the number of a part. Which of the two, the index behind it tells.
+pub fn subindex_spec(sets: bool) -> &'static Spec {
+    if sets { &SUBINDEX_SETS } else { &SUBINDEX_PART }
+}
 
 /// How much 8 bytes look like a parameter channel, in bits of chance: unused bits that are 0, an
 /// index that there is, an error that the manual lists, no left-overs.
@@ -583,16 +611,10 @@ const HANDSHAKE: Bits = Bits::part(6, 1, "handshake", "handshake")
 
 const ERROR: Bits = Bits::flag(7, "error", "error").note("The last four bytes say which.");
 
-static SUBINDEX: Spec = Spec::new("subindex", "Subindex")
-    .role(Role::Address)
-    .note(
-        "For an inverter parameter (index 2000h to 5EFFh): in which sets, one bit for each; reading from \
-         several works only where they hold the same. 0 means the set that Fr.09 chooses. For other \
-         indices it is no set but the number of a part.",
-    )
-    .source("KEB COMBIVERT F5 PROFIBUS-DP operator, 9")
-    .names(&[Name { value: 0, label: "no set named", note: "An inverter takes the set that Fr.09 chooses." }])
-    .bits(&[
+static SUBINDEX: Spec = SUBINDEX_SPEC;
+
+static SUBINDEX_SETS: Spec =
+    SUBINDEX_SPEC.names(&[Name { value: 0, label: "the set that Fr.09 chooses", note: "" }]).bits(&[
         Bits::flag(0, "set_0", "set 0"),
         Bits::flag(1, "set_1", "set 1"),
         Bits::flag(2, "set_2", "set 2"),
@@ -602,6 +624,22 @@ static SUBINDEX: Spec = Spec::new("subindex", "Subindex")
         Bits::flag(6, "set_6", "set 6"),
         Bits::flag(7, "set_7", "set 7"),
     ]);
+
+static SUBINDEX_PART: Spec = SUBINDEX_SPEC.bits(&[Bits::part(0, 8, "part", "part").names(&[Name {
+    value: 0,
+    label: "the whole parameter",
+    note: "Without sets and parts.",
+}])]);
+
+const SUBINDEX_SPEC: Spec = Spec::new("subindex", "Subindex")
+    .role(Role::Address)
+    .format(Format::Hex)
+    .note(
+        "For an inverter parameter (index 2000h to 5EFFh): in which sets, one bit for each; reading from \
+         several works only where they hold the same. 0 means the set that Fr.09 chooses. For other \
+         indices it is no set but the number of a part.",
+    )
+    .source("KEB COMBIVERT F5 PROFIBUS-DP operator, 9");
 
 static INDEX: Spec = INDEX_SPEC;
 static INDEX_LOW_FIRST: Spec = INDEX_SPEC.order(Order::Little);

@@ -9,7 +9,10 @@ use crate::message;
 pub static REQUEST: Kind = Kind {
     sap: Some(56),
     direction: Direction::Request,
-    spec: Spec::new("read_inputs_request", "Read inputs").note("Asks for the present inputs.").source(SOURCE),
+    spec: Spec::new("read_inputs_request", "Read inputs")
+        .short("RD_Inp")
+        .note("Asks for the present inputs.")
+        .source(SOURCE),
     new: |_| Box::new(NoData { meaning: |who| message!("ask {who} for its inputs", who = who) }),
 };
 
@@ -17,6 +20,7 @@ pub static RESPONSE: Kind = Kind {
     sap: Some(56),
     direction: Direction::Response,
     spec: Spec::new("read_inputs_response", "Read inputs")
+        .short("RD_Inp")
         .note("The inputs as in data exchange, with the parameter channel.")
         .source(SOURCE),
     new: |settings| Box::new(UserData::read(Side::Inputs, settings)),

@@ -10,6 +10,7 @@ pub static REQUEST: Kind = Kind {
     sap: Some(57),
     direction: Direction::Request,
     spec: Spec::new("read_outputs_request", "Read outputs")
+        .short("RD_Outp")
         .note("Asks for the present outputs.")
         .source(SOURCE),
     new: |_| Box::new(NoData { meaning: |who| message!("ask {who} for its outputs", who = who) }),
@@ -19,6 +20,7 @@ pub static RESPONSE: Kind = Kind {
     sap: Some(57),
     direction: Direction::Response,
     spec: Spec::new("read_outputs_response", "Read outputs")
+        .short("RD_Outp")
         .note("The outputs as in data exchange, with the parameter channel.")
         .source(SOURCE),
     new: |settings| Box::new(UserData::read(Side::Outputs, settings)),

@@ -4,7 +4,7 @@
 //! number (2), groups (1); then parameters of the device, if it has some.
 
 use super::{Body, Kind, ident};
-use crate::field::{Argument, Bits, Direction, Message, Name, Role, Spec, hex_value};
+use crate::field::{Argument, Bits, Direction, Message, Name, Role, Severity, Spec, hex_value};
 use crate::message;
 use crate::walk::{Telegram, Walk, Walker};
 
@@ -58,11 +58,20 @@ impl Telegram for SetPrm {
         w.u8(&RESPONSE_TIME, &mut self.response_time)?;
         ident::walk(w, &mut self.ident, self.expected)?;
         w.u8(&GROUPS, &mut self.groups)?;
-        w.bytes(&PARAMETERS, &mut self.parameters, None)
+        w.bytes(&PARAMETERS, &mut self.parameters, None)?;
+        if self.ident == ident::KEB_F5 && !self.parameters.is_empty() {
+            let message = message!("a KEB F5 takes 7 bytes, without parameters of its own");
+            w.remark(&PARAMETERS, Severity::Warning, "no-such-parameters", message);
+        }
+        Ok(())
     }
 }
 
 impl Body for SetPrm {
+    fn sets_up(&self) -> bool {
+        true
+    }
+
     fn meaning(&self, who: Message) -> Message {
         let lock = LOCK.name(LOCK.of(self.status.into())).map_or("", |name| name.label);
         let watchdog = match self.watchdog() {

@@ -4,8 +4,8 @@
 //! number (2); then extended diagnosis, if there is some.
 
 use super::no_data::NoData;
-use super::{Body, Kind, ident, number_meaning};
-use crate::field::{Bits, Direction, Message, Name, Role, Spec};
+use super::{Body, Diagnosis, Kind, ident, number_meaning};
+use crate::field::{Bits, Direction, Message, Name, Role, Severity, Spec};
 use crate::message;
 use crate::walk::{Telegram, Walk, Walker};
 
@@ -58,11 +58,21 @@ impl Telegram for SlaveDiag {
         }
         w.u8(&MASTER, &mut self.master)?;
         ident::walk(w, &mut self.ident, self.expected)?;
-        w.bytes(&EXTENDED, &mut self.extended, None)
+        w.bytes(&EXTENDED, &mut self.extended, None)?;
+        if self.ident == ident::KEB_F5 && !self.extended.is_empty() {
+            let message = message!("a KEB F5 gives 6 bytes of diagnosis, and no more of its own");
+            w.remark(&EXTENDED, Severity::Warning, "no-such-diagnosis", message);
+        }
+        Ok(())
     }
 }
 
 impl Body for SlaveDiag {
+    fn diagnosis(&self) -> Option<Diagnosis> {
+        let [first, second, _] = self.status;
+        Some(Diagnosis { not_set_up: second & 1 != 0, configuration_fault: first & 4 != 0 })
+    }
+
     fn meaning(&self, who: Message) -> Message {
         let [first, second, _] = self.status;
         let said = number_meaning(&STATUS[0], first);

@@ -3,7 +3,7 @@
 
 use super::parameter_channel::LENGTH;
 use super::{Body, Channel, Settings};
-use crate::field::{Direction, Format, Message, Order, Spec, hex_value};
+use crate::field::{Direction, Format, Message, Order, Severity, Spec, hex_value};
 use crate::message;
 use crate::walk::{Telegram, Walk, Walker};
 
@@ -37,6 +37,10 @@ pub struct UserData {
     swapped: bool,
     /// Bytes of process data by the configuration.
     size: usize,
+    /// The configuration was not seen: so many bytes are delivered.
+    assumed: bool,
+    /// The slave said before that it must be set up.
+    not_set_up: bool,
     words: Vec<u16>,
     /// The last byte of an odd number.
     odd: u8,
@@ -54,6 +58,8 @@ impl UserData {
             channel: settings.layout.channel.then(|| Channel::new(direction, settings)),
             swapped: settings.swap_process,
             size,
+            assumed: settings.is_assumed(),
+            not_set_up: settings.not_set_up,
             words: vec![0; size / 2],
             odd: 0,
         }
@@ -82,6 +88,9 @@ impl Telegram for UserData {
             Side::Outputs => &OUTPUTS,
             Side::Inputs => &INPUTS,
         };
+        if self.assumed {
+            self.size = self.size_there(w);
+        }
         if self.size > 1 {
             let word = if self.swapped { &words.low_first } else { &words.word };
             w.list(&words.list, &mut self.words, self.size / 2, Some(1), |w, value| w.u16(word, value))?;
@@ -89,9 +98,42 @@ impl Telegram for UserData {
         if !self.size.is_multiple_of(2) {
             w.u8(&words.odd, &mut self.odd)?;
         }
+        if self.assumed && self.size != AS_DELIVERED {
+            let message = message!(
+                "{size} bytes of process data, and no Chk_Cfg before that tells the layout: as delivered there are {usual}. Set what the master configures under Devices",
+                size = self.size,
+                usual = AS_DELIVERED
+            );
+            w.remark(&words.list, Severity::Warning, "layout-unknown", message);
+        }
+        if self.not_set_up && !self.read {
+            let message = message!(
+                "the slave said that it must be set up: before Set_Prm and Chk_Cfg it exchanges no data"
+            );
+            w.remark(&words.list, Severity::Warning, "not-set-up", message);
+        }
         Ok(())
     }
 }
+
+impl UserData {
+    /// The bytes that are there, where they can be process data.
+    fn size_there(&mut self, w: &mut dyn Walker) -> usize {
+        let kept = self.words.len();
+        let words = &mut self.words;
+        let there = w.ahead(0, &mut |w| {
+            w.list(&OUTPUTS.list, words, kept, Some(1), |w, value| w.u16(&OUTPUTS.word, value))
+        });
+        match there {
+            Some(there @ 2..=MOST) if there % 2 == 0 => there as usize,
+            _ => AS_DELIVERED,
+        }
+    }
+}
+
+/// Bytes each way in the configuration `B7 A3 93`, and the most that there can be.
+const AS_DELIVERED: usize = 4;
+const MOST: u64 = 16;
 
 impl Body for UserData {
     fn meaning(&self, who: Message) -> Message {
@@ -166,7 +208,10 @@ static INPUTS: Words = Words {
     odd: Spec::new("input", "Input byte").short("Input").format(Format::Hex).note(ODD),
 };
 
-const OUTPUT: Spec = Spec::new("output", "Output word").short("Output").format(Format::Register).note(NOTE);
+const OUTPUT: Spec = Spec::new("output", "Output word").short("Output").format(Format::Register).note(
+    "What it means, the slave's process data mapping says. A value of 32 bits takes two words. Outputs go on to \
+     the inverter only when they change.",
+);
 const INPUT: Spec = Spec::new("input", "Input word").short("Input").format(Format::Register).note(NOTE);
 
 const NOTE: &str =

@@ -214,6 +214,9 @@ impl Scan {
                 },
                 b'&' if matches!(line.get(at + 1), Some(b'H' | b'h')) => self.of_basic(line, at),
                 ESCAPE => at + escape_sequence(&line[at..]).max(1),
+                b'S' | b'E' if at == first && self.runs.is_empty() => {
+                    self.label(line, at).unwrap_or_else(|| self.word(line, at, numbers))
+                }
                 _ if is_word(c) => self.word(line, at, numbers),
                 0x80.. => self.sign(line, at),
                 b' ' | b'\t' | b'|' => {
@@ -407,6 +410,19 @@ impl Scan {
     /// Whether nothing but marks stands behind `run`.
     pub fn tail_is_plain(&self, line: &[u8], run: &Run) -> bool {
         !line[run.span.to..].iter().any(u8::is_ascii_alphanumeric)
+    }
+
+    /// `S1:` and `E1:` at the beginning of a line, as manuals number what is sent and what comes back.
+    fn label(&mut self, line: &[u8], at: usize) -> Option<usize> {
+        let sender = match line[at] {
+            b'S' => Sender::Says(Direction::Request),
+            b'E' => Sender::Says(Direction::Response),
+            _ => return None,
+        };
+        let (_, to) =
+            digits(line, at + 1).filter(|(number, to)| *number < 100 && line.get(*to) == Some(&b':'))?;
+        self.say(sender, Weight::Strong);
+        Some(to)
     }
 
     fn word(&mut self, line: &[u8], at: usize, numbers: Option<Numbers>) -> usize {

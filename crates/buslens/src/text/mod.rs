@@ -313,7 +313,7 @@ impl Reader {
                 && !run.marked
                 && !is_labelled(line, &run);
             let short = run.len() < SHORTEST || (number && run.len() == SHORTEST);
-            let two = run.span.len() > 1 || self.header.is_some();
+            let two = run.span.len() > 1;
             let said = run.said && run.sender.is_some_and(|(_, weight)| weight == Weight::Strong);
             let rest = short && !marked && (bare && two || said || ends && is_labelled(line, &run));
             if short && !rest && !marked {

@@ -78,7 +78,7 @@ fn job(asked: &Asked, kind: &'static Kind, mut body: Box<dyn Body>) -> Cargo {
             Access::Write => (Service::Write, asked.width),
             _ => (Service::Read, 1),
         };
-        channel.ask(service, length, 1);
+        channel.ask(service, length, asked.handshake & 1);
         (channel.index, channel.subindex) = (asked.address, asked.subindex);
         channel.value = Order::Big.number(&asked.values) as u32;
     }

@@ -1,11 +1,11 @@
 use crate::device::{self, Profile};
 use crate::dialogue::{Certainty, Choice, Guess};
 use crate::field::{self, Argument, Direction, Severity, Span};
-use crate::frame::{self, Content, Frame, Protocol, Speaker, Verdict};
+use crate::frame::{self, Bus, Content, Frame, Protocol, Speaker, Verdict};
 use crate::message;
-use crate::modbus::Pdu;
+use crate::modbus::{Access, Pdu};
 use crate::profibus::jobs::{self, Jobs, Step};
-use crate::profibus::{Channel, Service};
+use crate::profibus::{self, Body, Channel, Service};
 use crate::text::{Line, Remark, Style};
 use crate::walk::{self, guide};
 
@@ -19,6 +19,16 @@ pub struct Options {
     /// The device whose manual says what the registers mean.
     pub device: Option<&'static Profile>,
     pub settings: Settings,
+}
+
+impl Options {
+    /// Takes what the chosen device says of its telegrams: its ident number, and what it speaks.
+    pub(super) fn take_device(&mut self) {
+        let Some(device) = self.device else { return };
+        let frame = &mut self.settings.frame;
+        frame.profibus.ident = frame.profibus.ident.or(device.ident);
+        frame.bus = Some(if device.ident.is_some() { Bus::Profibus } else { Bus::Modbus });
+    }
 }
 
 /// What a user set up in the devices that speak, as far as their telegrams depend on it.
@@ -110,6 +120,45 @@ impl Report {
         report
     }
 
+    /// A request and a response to it, both of which are known for what they are.
+    pub(super) fn of_pair(
+        request: &[u8],
+        response: &[u8],
+        protocol: &'static Protocol,
+        mut options: Options,
+    ) -> Self {
+        options.take_device();
+        let telegram = |bytes: &[u8], direction| Telegram {
+            number: 1,
+            line: Line { bytes: bytes.to_vec(), ..Line::default() },
+            choice: Choice { protocol, reason: message!("it was made so"), others: Vec::new() },
+            guess: Guess { direction, certainty: Certainty::Certain, reason: message!("it was made so") },
+            verdict: (protocol.verdict)(bytes),
+            unit: (protocol.unit)(bytes),
+            answers: None,
+            answered_by: None,
+            step: None,
+            time: None,
+            latency: None,
+            comment: String::new(),
+        };
+        let asked = Telegram { answered_by: Some(1), ..telegram(request, Direction::Request) };
+        let answer = Telegram { number: 2, answers: Some(0), ..telegram(response, Direction::Response) };
+        Self::of(vec![asked, answer], options)
+    }
+
+    /// Some of the telegrams, as they read with other options.
+    pub(super) fn read_as(&self, indices: &[usize], mut options: Options) -> Self {
+        options.take_device();
+        let place = |index: Option<usize>| index.and_then(|index| indices.iter().position(|it| *it == index));
+        let telegrams = indices.iter().map(|index| {
+            let mut telegram = self.telegrams[*index].clone();
+            (telegram.answers, telegram.answered_by) = (place(telegram.answers), place(telegram.answered_by));
+            telegram
+        });
+        Self::of(telegrams.collect(), options)
+    }
+
     /// Leaves out the first `count` telegrams, but not what they said of how devices are set up.
     pub(super) fn forget(&mut self, count: usize) {
         self.telegrams.drain(..count);
@@ -196,7 +245,8 @@ impl Report {
     /// How the devices are set up when telegram `index` is sent.
     pub(super) fn settings(&self, index: usize) -> &Settings {
         let unit = self.telegrams[index].unit;
-        let known = self.learned.iter().rev().find(|known| known.unit == unit && known.from <= index);
+        let concerns = |known: &&Known| (known.unit == unit || known.unit == TO_ALL) && known.from <= index;
+        let known = self.learned.iter().rev().find(concerns);
         known.map_or(&self.options.settings, |known| &known.settings)
     }
 
@@ -210,16 +260,18 @@ impl Report {
             if telegram.verdict == Verdict::Wrong || (pdu && self.options.device.is_none()) {
                 continue;
             }
+            if telegram.unit == TO_ALL {
+                self.follow_all(index);
+                continue;
+            }
             let mut settings = self.settings(index).clone();
             let (frame, _) = self.read(index);
             let changed = match frame.content() {
                 Content::Modbus { pdu, .. } => self.learn_registers(index, pdu, &mut settings.device),
                 Content::Profibus { slave, kind, body } => {
-                    let mut changed = false;
-                    if let Some(layout) = body.layout() {
-                        changed = settings.frame.profibus.layout != layout;
-                        settings.frame.profibus.layout = layout;
-                    }
+                    let before = settings.frame.profibus.clone();
+                    learn_setup(body, &mut settings.frame.profibus);
+                    let mut changed = settings.frame.profibus != before;
                     // Inputs and outputs that are only looked at are no cycle of the channel.
                     if let Some(channel) = body.channel().filter(|_| kind.sap.is_none()) {
                         let known = slaves.iter().position(|(other, _)| *other == slave);
@@ -242,10 +294,35 @@ impl Report {
         }
     }
 
-    /// Takes what registers were written, once that is confirmed, or if nobody answers at all.
+    /// Takes what is written to all units for each of them.
+    fn follow_all(&mut self, index: usize) {
+        let mut units: Vec<Option<u8>> = vec![TO_ALL];
+        for known in &self.learned {
+            if !units.contains(&known.unit) {
+                units.push(known.unit);
+            }
+        }
+        let (frame, _) = self.read(index);
+        let Content::Modbus { pdu, .. } = frame.content() else { return };
+        for unit in units {
+            let known = self.learned.iter().rev().find(|known| known.unit == unit);
+            let mut settings = known.map_or(&self.options.settings, |known| &known.settings).clone();
+            if self.learn_registers(index, pdu, &mut settings.device) {
+                self.learned.push(Known { from: index + 1, unit, settings });
+            }
+        }
+    }
+
+    /// Takes what registers were written, once that is confirmed, or if nobody answers at all; and what was
+    /// read of them.
     fn learn_registers(&self, index: usize, pdu: &Pdu, settings: &mut device::Settings) -> bool {
         let Some(profile) = self.options.device else { return false };
         let telegram = &self.telegrams[index];
+        if let Some(access) =
+            pdu.body.access().filter(|access| !access.write && pdu.direction == Direction::Response)
+        {
+            return learn_values(profile, &access, settings);
+        }
         let request = match telegram.answers {
             Some(request) if pdu.body.exception().is_none() => request,
             None if telegram.answered_by.is_none() => index,
@@ -261,11 +338,7 @@ impl Report {
         }
         let Content::Modbus { pdu, .. } = frame.content() else { return false };
         let Some(access) = pdu.body.access().filter(|access| access.write) else { return false };
-        let Some(start) = access.start else { return false };
-        let width = access.table.width;
-        (start..=u16::MAX).zip(access.values).fold(false, |changed, (address, value)| {
-            profile.learn(address, 0, *value, width, settings) || changed
-        })
+        learn_values(profile, &access, settings)
     }
 
     /// Takes what a job wrote, when it is done.
@@ -275,12 +348,42 @@ impl Report {
         step: Option<&Step>,
         settings: &mut device::Settings,
     ) -> bool {
-        let done = step.filter(|step| step.state == jobs::State::Done && channel.service() == Service::Write);
+        let done =
+            step.filter(|step| step.state == jobs::State::Done && channel.direction == Direction::Response);
+        let written = channel.service() == Service::Write;
         match (self.options.device, done.and_then(|step| step.value)) {
             (Some(profile), Some(value)) => {
-                profile.learn(channel.index, channel.subindex, value, 4, settings)
+                profile.learn(channel.index, channel.subindex, value, 4, written, settings)
             }
             _ => false,
+        }
+    }
+}
+
+/// The address that all units listen to.
+const TO_ALL: Option<u8> = Some(0);
+
+/// Takes what the values of registers set up.
+fn learn_values(profile: &Profile, access: &Access<'_>, settings: &mut device::Settings) -> bool {
+    let Some(start) = access.start else { return false };
+    let width = access.table.width;
+    (start..=u16::MAX).zip(access.values).fold(false, |changed, (address, value)| {
+        profile.learn(address, 0, *value, width, access.write, settings) || changed
+    })
+}
+
+/// Takes what a telegram of a service says of how the slave is set up.
+fn learn_setup(body: &dyn Body, settings: &mut profibus::Settings) {
+    if let Some(layout) = body.layout() {
+        (settings.layout, settings.told, settings.not_set_up) = (layout, true, false);
+    }
+    if body.sets_up() {
+        settings.not_set_up = false;
+    }
+    if let Some(diagnosis) = body.diagnosis() {
+        settings.not_set_up = diagnosis.not_set_up;
+        if diagnosis.configuration_fault {
+            (settings.layout, settings.told) = (profibus::Layout::default(), false);
         }
     }
 }

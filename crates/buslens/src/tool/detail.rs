@@ -1,11 +1,14 @@
+use super::blocks::{BlockReading, blocks};
 use super::decode::Report;
-use crate::device::{self, Process, Profile, Registers, Said};
+use crate::device::{self, PROFILES, Process, Profile, Registers, Said};
+use crate::dialogue::Certainty;
 use crate::field::{self, Check, Direction, Field, Message, Order, Problem, Span, Spec, Value, hex_value};
 use crate::frame::{Content, Verdict};
 use crate::message;
-use crate::modbus::{Access, EXCEPTION, Pdu, Server};
+use crate::modbus::{Access, DIALECTS, Dialect, EXCEPTION, Pdu, Server, exceptions};
 use crate::profibus::jobs::{State, Step};
-use crate::profibus::{Body, Channel, Service, Side};
+use crate::profibus::{Body, Channel, Service, Side, parameter_channel};
+use crate::walk;
 
 /// Everything about one telegram.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +32,8 @@ pub struct Detail {
     pub values: Vec<u32>,
     /// The values are bits: coils or discrete inputs.
     pub coils: bool,
+    /// It writes what it names.
+    pub writes: bool,
     /// Where 16-bit registers or words of process data stand in it.
     pub registers: Option<Span>,
     /// The parameter channel in it.
@@ -57,6 +62,12 @@ impl Detail {
         problems
     }
 
+    /// Whether a field of this label has this value.
+    pub(super) fn fields_hold(&self, label: &str, value: Option<u64>) -> bool {
+        let of = |leaf: &&Field| leaf.spec.label == label && leaf.value.raw() == value;
+        value.is_some() && field::leaves(&self.fields).iter().any(of)
+    }
+
     /// The check bytes, where the telegram is long enough to have some.
     pub fn check(&self) -> Option<Check> {
         field::leaves(&self.fields).into_iter().find_map(|leaf| match leaf.value {
@@ -70,6 +81,9 @@ impl Report {
     /// Reads the fields of telegram `index`.
     pub fn detail(&self, index: usize) -> Option<Detail> {
         let telegram = self.telegrams.get(index)?;
+        if let Some(block) = self.block(index) {
+            return Some(Detail::of_block(block));
+        }
         let (frame, reading) = self.read(index);
         let bytes = &telegram.line.bytes;
         let mut detail = Detail {
@@ -85,6 +99,7 @@ impl Report {
             count: None,
             values: Vec::new(),
             coils: false,
+            writes: false,
             registers: None,
             channel: None,
             step: None,
@@ -92,6 +107,17 @@ impl Report {
             fields: reading.fields,
         };
         let device = self.options.device.map(|profile| (profile, &self.settings(index).device));
+        if let Content::Profibus { body, .. } = frame.content()
+            && let Some(channel) = body.channel()
+        {
+            let sets = match device {
+                Some((profile, _)) if profile.ident.is_some() => {
+                    profile.has_sets(channel.index, channel.subindex)
+                }
+                _ => parameter_channel::has_sets(channel.index),
+            };
+            refine(&mut detail.fields, parameter_channel::subindex_spec(sets));
+        }
         match frame.content() {
             Content::Modbus { server, pdu } => {
                 if let Some((profile, settings)) = device {
@@ -99,7 +125,15 @@ impl Report {
                 }
                 detail.unit = server.unit().filter(|_| !bytes.is_empty());
                 detail.tell_pdu(server, pdu);
+                detail.device.problems.extend(self.other_layout(index, pdu, &detail.fields));
+                if let Some(code) = pdu.body.exception() {
+                    let asked = telegram.answers.and_then(|request| self.detail(request));
+                    detail.tell_refusal(server, code, asked, device.map(|(profile, _)| profile));
+                }
                 detail.registers = detail.register_place(pdu);
+                if let Some(block) = self.unasked(index, pdu) {
+                    detail.tell_unasked(server, block);
+                }
             }
             Content::Profibus { slave, kind, body } => {
                 detail.step = telegram.step.clone().map(|step| detail.placed(step, bytes.len()));
@@ -108,7 +142,9 @@ impl Report {
                         Some(slave) => message!("station {n}", n = slave),
                         None => message!("the slave"),
                     };
-                    detail.ask_parameters(profile, settings, &who, body, bytes);
+                    // What is only looked at is no job.
+                    let looked_at = kind.sap.is_some() && kind.direction == Direction::Response;
+                    detail.ask_parameters(profile, settings, &who, (body, looked_at), bytes);
                 }
                 detail.unit = slave;
                 detail.registers = detail.place(|spec| ["outputs", "inputs"].contains(&spec.key));
@@ -120,7 +156,97 @@ impl Report {
     }
 }
 
+impl Report {
+    /// What the bytes of "telegram" `index` are, where they are none but a block of registers by itself.
+    pub fn block(&self, index: usize) -> Option<BlockReading> {
+        let telegram = &self.telegrams[index];
+        let device = self.options.device?;
+        let plain = matches!(telegram.verdict, Verdict::Wrong | Verdict::Unchecked);
+        let alone = telegram.answers.is_none() && telegram.guess.certainty != Certainty::Certain;
+        if !plain || self.options.protocol.is_some() || !(alone || telegram.unit == Some(0)) {
+            return None;
+        }
+        let best = blocks(&telegram.line.bytes, Some(device), self.settings(index)).into_iter().next()?;
+        (best.certainty == Certainty::Likely).then_some(best)
+    }
+
+    /// What a response holds that says of no registers it is.
+    fn unasked(&self, index: usize, pdu: &Pdu) -> Option<BlockReading> {
+        let access = pdu
+            .body
+            .access()
+            .filter(|access| !access.write && access.start.is_none() && !access.table.holds_switches())?;
+        let best = blocks(&big_endian(&access, usize::MAX), Some(self.options.device?), self.settings(index))
+            .into_iter()
+            .next()?;
+        (best.certainty == Certainty::Likely).then_some(best)
+    }
+
+    /// The layout that would make right what is wrong with a telegram of functions that have several.
+    fn other_layout(&self, index: usize, pdu: &Pdu, fields: &[Field]) -> Option<Problem> {
+        let telegram = &self.telegrams[index];
+        let by_itself = |problem: &&Problem| problem.code != "not-as-asked";
+        let wrong = field::problems(fields).into_iter().any(|problem| by_itself(&problem));
+        if !wrong || telegram.verdict == Verdict::Wrong {
+            return None;
+        }
+        let direction = telegram.guess.direction;
+        let has = |dialect: &&&'static Dialect| {
+            dialect.kinds.iter().any(|kind| (kind.function, kind.direction) == (pdu.function, direction))
+        };
+        let mut settings = self.settings(index).frame.clone();
+        let others = DIALECTS.iter().filter(has).filter(|other| other.key != settings.dialect.key);
+        let right = others.copied().find(|other| {
+            settings.dialect = other;
+            let bytes = &telegram.line.bytes;
+            let mut frame = (telegram.choice.protocol.expect)(bytes, direction, &settings);
+            field::problems(&walk::read(frame.as_mut(), bytes).fields).is_empty()
+        })?;
+        let span = Span::new(0, telegram.line.bytes.len());
+        let message = message!(
+            "laid out as “{layout}” it would be right: set that under Devices if the device speaks so",
+            layout = field::Argument::Term(right.label)
+        );
+        Some(Problem::warning("other-layout", span, message))
+    }
+}
+
 impl Detail {
+    /// What there is to say of a block by itself.
+    fn of_block(block: BlockReading) -> Self {
+        let kind = block.kind.clone();
+        Self {
+            said: message!("{kind} by itself: {said}", kind = kind.clone(), said = block.said),
+            verdict: Verdict::NoCheck,
+            kind,
+            note: "A block without a frame: its address, and whose it is, the bytes do not tell.",
+            source: "",
+            unit: None,
+            function: None,
+            exception: None,
+            start: None,
+            count: None,
+            values: Vec::new(),
+            coils: false,
+            writes: false,
+            registers: None,
+            channel: None,
+            step: None,
+            device: Said::default(),
+            fields: block.fields,
+        }
+    }
+
+    /// What a response says whose request is not here.
+    fn tell_unasked(&mut self, server: Server, block: BlockReading) {
+        self.said = message!(
+            "{who} answers, to a request that is not here: {said} ({kind})",
+            who = server.name(),
+            said = block.said,
+            kind = small(block.kind)
+        );
+    }
+
     /// Asks the device's table for the registers of a PDU.
     fn ask_registers(&mut self, profile: &'static Profile, settings: &device::Settings, pdu: &Pdu) {
         let function = pdu.function & !EXCEPTION;
@@ -132,7 +258,7 @@ impl Detail {
         let registers = |access: &Access<'_>| access.start.is_some() && !access.table.holds_switches();
         let Some(access) = pdu.body.access().filter(registers) else { return };
         let values = big_endian(&access, self.given(&access).unwrap_or_default().len());
-        let said = profile.registers(&self.device_registers(&access, &values), settings);
+        let said = profile.registers(&self.device_registers(&access, pdu.is_single(), &values), settings);
         self.device.problems.extend(said.problems);
         self.device.blocks = said.blocks;
     }
@@ -144,11 +270,11 @@ impl Detail {
         profile: &'static Profile,
         settings: &device::Settings,
         who: &Message,
-        body: &dyn Body,
+        (body, looked_at): (&dyn Body, bool),
         bytes: &[u8],
     ) {
         let mut said = None;
-        if let Some(channel) = body.channel() {
+        if let Some(channel) = body.channel().filter(|_| !looked_at) {
             let parameter = self.ask_parameter(profile, channel);
             said = Some(channel_sentence(channel, who, parameter.sentence()));
             self.device.blocks.extend(parameter.blocks);
@@ -167,6 +293,7 @@ impl Detail {
                 };
                 said = Some(match said {
                     Some(said) => message!("{said}; {things}", said = said, things = things),
+                    None if looked_at => message!("{who} has {things}", who = who.clone(), things = things),
                     None => message!("{who}, {things}", who = who.clone(), things = things),
                 });
             }
@@ -250,6 +377,72 @@ impl Detail {
         self.tell_kind(spec, Message::term(spec.label));
     }
 
+    /// What a server refuses to do, in the device's words, and why.
+    fn tell_refusal(
+        &mut self,
+        server: Server,
+        code: u8,
+        asked: Option<Self>,
+        profile: Option<&'static Profile>,
+    ) {
+        let named = |spec: &'static Spec| spec.name(code.into());
+        let own = profile.and_then(|profile| profile.exceptions).filter(|spec| named(spec).is_some());
+        let standard = exceptions().iter().find(|name| name.value == u64::from(code));
+        if let Some(spec) = own {
+            refine(&mut self.fields, spec);
+        }
+        let hex = hex_value(code.into(), 1);
+        let name = own.and_then(named).or(standard);
+        let why = match (name, profile) {
+            (Some(name), _) => {
+                message!("exception {code}, {name}", code = code, name = field::Argument::Term(name.label))
+            }
+            (None, Some(_)) => {
+                message!(
+                    "exception {code} ({hex}), which neither the standard nor the manual defines",
+                    code = code,
+                    hex = hex
+                )
+            }
+            (None, None) => {
+                let others = PROFILES.iter().filter_map(|other| Some((other, named(other.exceptions?)?)));
+                match others.into_iter().next() {
+                    Some((other, name)) => message!(
+                        "exception {code} ({hex}), which the standard does not define; of a {device} it is: {name}",
+                        code = code,
+                        hex = hex,
+                        device = field::Argument::Term(other.label),
+                        name = field::Argument::Term(name.label)
+                    ),
+                    None => message!(
+                        "exception {code} ({hex}), which the standard does not define",
+                        code = code,
+                        hex = hex
+                    ),
+                }
+            }
+        };
+        let who = server.name();
+        let things = asked.as_ref().and_then(|asked| asked.device.sentence());
+        self.said = match (things, asked.as_ref().is_some_and(|asked| asked.writes)) {
+            (Some(things), false) => {
+                message!("{who} refuses to give {things}: {why}", who = who, things = things, why = why)
+            }
+            (Some(things), true) => {
+                message!("{who} refuses to write {things}: {why}", who = who, things = things, why = why)
+            }
+            (None, _) => message!("{who} refuses: {why}", who = who, why = why),
+        };
+        // What the manual had to say of the request is why.
+        if let Some(problem) = asked.as_ref().and_then(|asked| asked.device.problems().next()) {
+            self.said = message!(
+                "{said}; of the request: {problem}",
+                said = self.said.clone(),
+                problem = problem.message.clone()
+            );
+        }
+    }
+
     /// What a PDU says.
     fn tell_pdu(&mut self, server: Server, pdu: &Pdu) {
         let spec = &pdu.kind.spec;
@@ -282,6 +475,7 @@ impl Detail {
         self.function = function.map(|function| function & !EXCEPTION);
         self.exception = pdu.body.exception();
         self.start = access.and_then(|access| access.start);
+        self.writes = write;
         self.coils = access.is_some_and(|access| access.table.holds_switches());
         self.count = access.map(|access| access.count);
         self.values = access.map_or(Vec::new(), |access| self.whole_values(&access).to_vec());
@@ -289,7 +483,7 @@ impl Detail {
 
     /// Registers as a device's table takes them: with the place of their values in the telegram, or of
     /// what names them.
-    fn device_registers<'a>(&self, access: &Access<'_>, values: &'a [u8]) -> Registers<'a> {
+    fn device_registers<'a>(&self, access: &Access<'_>, single: bool, values: &'a [u8]) -> Registers<'a> {
         let table = access.table;
         let given = self.given(access).filter(|_| !access.values.is_empty());
         let span = given.or(self.place(|spec| std::ptr::eq(spec, &table.start))).unwrap_or_default();
@@ -298,6 +492,7 @@ impl Detail {
             count: access.count,
             width: table.width,
             access: if access.write { device::Access::Write } else { device::Access::Read },
+            single,
             values: given.is_some().then_some(values),
             span,
         }
@@ -338,6 +533,25 @@ fn channel_sentence(channel: &Channel, who: &Message, things: Option<Message>) -
         }
         (_, Service::None | Service::Both) => plain,
     }
+}
+
+/// Gives the field that is called so the words of `spec`: what only other fields, or the device, tell.
+fn refine(fields: &mut [Field], spec: &'static Spec) {
+    for field in fields {
+        if field.spec == spec {
+            field.spec = spec;
+        }
+        refine(&mut field.children, spec);
+    }
+}
+
+/// A label within a sentence.
+fn small(label: Message) -> String {
+    let mut text = label.to_string();
+    if let Some(first) = text.get_mut(..1) {
+        first.make_ascii_lowercase();
+    }
+    text
 }
 
 /// Where the first field of such a spec stands.

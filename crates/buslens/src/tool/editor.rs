@@ -2,12 +2,13 @@
 
 use super::build::{build, does_not_carry, slot};
 use super::link::Link;
-use super::{Change, Entries, Offer, Options, Settings, decode, offers, replies};
-use crate::device::{Draft, Task};
+use super::{Change, Entries, Offer, Options, Report, Settings, decode, offers, replies};
+use crate::device::{Draft, Profile, Task};
 use crate::field::{Argument, Direction, Message, Role, Spec, hex, problems};
 use crate::frame::{self, Cargo, Frame, PROTOCOLS, Protocol};
 use crate::message;
 use crate::modbus::Pdu;
+use crate::profibus::{self, ident};
 use crate::walk::form::Content;
 use crate::walk::{self, Deviations, Telegram, Walk, Walker};
 
@@ -25,8 +26,19 @@ use crate::walk::{self, Deviations, Telegram, Walk, Walker};
 pub struct Editor {
     pub protocol: &'static Protocol,
     pub direction: Direction,
+    /// Whose telegram it is, where that is known.
+    pub device: Option<&'static Profile>,
     subject: Subject,
     entries: Entries,
+}
+
+/// What can come back to a request.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    pub label: Message,
+    pub bytes: Vec<u8>,
+    /// The answer in a sentence.
+    pub said: Message,
 }
 
 /// What the form is of.
@@ -66,7 +78,9 @@ impl Editor {
                 (kind.direction, Subject::Telegram(carried(Cargo::Modbus(pdu))?))
             }
             Offer::Service(kind) => {
-                let body = (kind.new)(&settings.frame.profibus);
+                // Of the only device that is known here, unless another is.
+                let ident = settings.frame.profibus.ident.or(Some(ident::KEB_F5));
+                let body = (kind.new)(&profibus::Settings { ident, ..settings.frame.profibus.clone() });
                 (kind.direction, Subject::Telegram(carried(Cargo::Profibus(kind, body))?))
             }
             Offer::Task(task) => {
@@ -93,7 +107,7 @@ impl Editor {
             let before = self.mistakes(settings);
             self.edit(&path, Change::Add);
             if self.mistakes(settings) >= before {
-                self.edit(&path, Change::Remove(0));
+                self.edit(&path, Change::RemoveLast);
             }
         }
     }
@@ -182,7 +196,11 @@ impl Editor {
         direction: Direction,
     ) -> Self {
         let entries = Entries::of(subject.telegram(), deviations);
-        Self { protocol, direction, subject, entries }
+        let device = match &subject {
+            Subject::Task(asking) => Some(asking.task.profile),
+            Subject::Telegram(_) => None,
+        };
+        Self { protocol, direction, device, subject, entries }
     }
 
     /// What can be edited, and what was typed that does not fit.
@@ -242,8 +260,10 @@ impl Editor {
     pub fn open_all(&mut self) -> Result<(), Message> {
         if let Subject::Task(asking) = &mut self.subject {
             let frame = asking.build(self.protocol)?;
+            let device = self.device;
             *self =
                 Self::with(Subject::Telegram(frame), Deviations::default(), self.protocol, self.direction);
+            self.device = device;
         }
         Ok(())
     }
@@ -270,16 +290,39 @@ impl Editor {
 
     /// What can come back, as bytes with their names; nothing for a response.
     pub fn replies(&mut self, settings: &Settings) -> Vec<(Message, Vec<u8>)> {
-        let profibus = &settings.frame.profibus;
+        let (profibus, device) = (&settings.frame.profibus, self.device);
         let replies = match &mut self.subject {
-            Subject::Telegram(frame) => replies(frame.as_mut(), profibus),
+            Subject::Telegram(frame) => replies(frame.as_mut(), profibus, device),
             Subject::Task(asking) => match asking.build(self.protocol) {
-                Ok(mut frame) => replies(frame.as_mut(), profibus),
+                Ok(mut frame) => replies(frame.as_mut(), profibus, device),
                 Err(_) => Vec::new(),
             },
         };
         let bytes = |frame: &mut dyn Frame| walk::write(frame, &Deviations::default());
         replies.into_iter().map(|mut reply| (reply.label, bytes(reply.frame.as_mut()))).collect()
+    }
+
+    /// What can come back, each with what it says in the device's words.
+    pub fn answers(&mut self, settings: &Settings) -> Vec<Answer> {
+        let Ok(request) = self.bytes() else { return Vec::new() };
+        let options = Options { device: self.device, settings: settings.clone(), ..Options::default() };
+        let protocol = self.protocol;
+        let replies = self.replies(settings).into_iter();
+        let answer = |(label, bytes): (Message, Vec<u8>)| {
+            let both = Report::of_pair(&request, &bytes, protocol, options.clone());
+            let said = both.detail(1).map_or_else(|| label.clone(), |detail| detail.said);
+            Answer { label, bytes, said }
+        };
+        replies.map(answer).collect()
+    }
+
+    /// Makes a job for the parameter channel the next one: with the other handshake.
+    pub fn next_job(&mut self) {
+        let Subject::Task(asking) = &self.subject else { return };
+        if asking.draft.by_index() {
+            let next = (1 - asking.draft.handshake.min(1)).to_string();
+            self.edit("handshake", Change::Enter(&next));
+        }
     }
 
     /// Changes the entry at `path`.
@@ -401,6 +444,26 @@ mod tests {
         let mut again = Editor::follow(&link).unwrap();
         assert_eq!(again.bytes(), editor.bytes());
         assert!(Editor::follow(&Link::default()).is_none());
+    }
+
+    /// The next job takes the other handshake; what comes back is said in the device's words.
+    #[test]
+    fn jobs_follow_each_other() {
+        let settings = Settings::default();
+        let f5 = PROFILES.iter().copied().find(|profile| profile.key == "keb-f5-profibus");
+        let offer =
+            offers(f5).into_iter().find(|offer| offer.label().to_string() == "read Status word (Sy.51)");
+        let channel = PROTOCOLS.iter().find(|protocol| protocol.key == "profibus-parameter-channel").unwrap();
+        let mut editor = Editor::new(offer.unwrap(), 1, channel, &settings).unwrap();
+        assert_eq!(editor.bytes().unwrap()[0], 0x41);
+        editor.next_job();
+        assert_eq!(editor.bytes().unwrap()[0], 0x01);
+        let answers = editor.answers(&settings);
+        assert_eq!(
+            answers[0].said.to_string(),
+            "job 1 is done: the slave answers: Status word (Sy.51) = 0000h"
+        );
+        assert!(answers[1].said.to_string().contains("refuses to read index 2033h"), "{}", answers[1].said);
     }
 
     /// Whatever is offered can be opened in at least one protocol, and what was made of it is read

@@ -28,6 +28,8 @@ pub enum Change<'a> {
     Add,
     /// Takes an item from a list.
     Remove(usize),
+    /// Takes the last one.
+    RemoveLast,
 }
 
 impl Change<'_> {
@@ -63,6 +65,7 @@ impl Change<'_> {
             (Self::Remove(index), Content::List { items }) if index < items.len() => {
                 items.remove(index);
             }
+            (Self::RemoveLast, Content::List { items }) => _ = items.pop(),
             _ => {}
         }
     }

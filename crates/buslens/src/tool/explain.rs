@@ -1,5 +1,7 @@
+use super::Detail;
 use super::decode::{Options, Report};
-use crate::dialogue::{self, Certainty, Context, Guess, Hypothesis, chance_of_change, hypotheses};
+use crate::device::{Misprint, PROFILES};
+use crate::dialogue::{self, Cause, Certainty, Context, Guess, Hypothesis, chance_of_change, hypotheses};
 use crate::field::{self, Message, Span};
 use crate::frame::{Frame, Speaker, Verdict, modbus_rtu};
 use crate::message;
@@ -35,14 +37,25 @@ impl Explanation {
 /// More are not worth reading.
 const MOST: usize = 10;
 
+/// What a manual means that prints these bytes.
+fn misprint(bytes: &[u8]) -> Option<Hypothesis> {
+    let mut misprints = PROFILES.iter().flat_map(|profile| profile.misprints);
+    let Misprint { section, slips, right, .. } = misprints.find(|misprint| misprint.printed == bytes)?;
+    Some(Hypothesis::known(Cause::Misprint { section, slips }, bytes, right.to_vec()))
+}
+
 impl Report {
     /// What may have happened to telegram `index`, best first: what leaves nothing wrong before what
     /// does; then by how often such a thing happens and in how many ways it could have. Empty where
     /// the check is right, or where there is none.
     pub fn explanations(&self, index: usize) -> Vec<Explanation> {
-        let Some(telegram) = self.telegrams.get(index).filter(|it| it.verdict == Verdict::Wrong) else {
-            return Vec::new();
-        };
+        let Some(telegram) = self.telegrams.get(index) else { return Vec::new() };
+        let printed = misprint(&telegram.line.bytes);
+        if telegram.verdict != Verdict::Wrong {
+            // A misprint may look like a telegram whose end is missing.
+            let cut = printed.filter(|_| telegram.verdict != Verdict::Right);
+            return cut.map(|printed| self.explain(index, printed, None)).into_iter().collect();
+        }
         let bytes_of = |index: usize| self.telegrams[index].line.bytes.as_slice();
         let before = telegram.answers.or(index.checked_sub(1)).map(bytes_of);
         let others = self.neighbours(index);
@@ -51,7 +64,11 @@ impl Report {
         let context = Context { request: before, others: &others, digit_lost };
         let asked = telegram.answers.map(|request| self.read(request).0);
         let mut found: Vec<Explanation> = Vec::new();
+        let known = printed.as_ref().map(|known| known.bytes.clone());
         for hypothesis in hypotheses(&telegram.line.bytes, telegram.choice.protocol, context) {
+            if known.as_ref() == Some(&hypothesis.bytes) {
+                continue;
+            }
             let explanation = self.explain(index, hypothesis, asked.as_deref());
             let rank = |one: &Explanation| {
                 // Where nothing else is wrong, a device that knows the registers says more than chance.
@@ -63,6 +80,10 @@ impl Report {
                 found.insert(at, explanation);
                 found.truncate(MOST);
             }
+        }
+        if let Some(printed) = printed {
+            found.insert(0, self.explain(index, printed, asked.as_deref()));
+            found.truncate(MOST);
         }
         found
     }
@@ -100,21 +121,22 @@ impl Report {
             .collect()
     }
 
-    /// Whether the device knows the registers of a hypothesis, and how much is wrong with them.
-    fn known(&self, index: usize, hypothesis: &Hypothesis, guess: &Guess) -> (bool, usize) {
-        if self.options.device.is_none() {
-            return (false, 0);
-        }
+    /// What a hypothesis says in the device's words.
+    fn in_words(&self, index: usize, hypothesis: &Hypothesis, guess: &Guess) -> Option<Detail> {
+        self.options.device?;
         let mut telegram = self.telegrams[index].clone();
         telegram.line.bytes.clone_from(&hypothesis.bytes);
         telegram.guess = guess.clone();
+        telegram.verdict = Verdict::Right;
+        if let Some(protocol) = hypothesis.protocol {
+            telegram.choice.protocol = protocol;
+        }
         let request = telegram.answers.map(|request| self.telegrams[request].clone());
         telegram.answers = request.as_ref().map(|_| 0);
         let telegrams: Vec<_> = request.into_iter().chain([telegram]).collect();
         let options = Options { settings: self.settings(index).clone(), ..self.options.clone() };
         let alone = Self::of(telegrams, options);
-        let device = alone.detail(alone.telegrams.len() - 1).map(|detail| detail.device).unwrap_or_default();
-        (!device.blocks.is_empty() && device.problems.is_empty(), device.problems.len())
+        alone.detail(alone.telegrams.len() - 1)
     }
 
     /// Reads a hypothesis as what it would be, a response to `asked`.
@@ -146,9 +168,12 @@ impl Report {
         if guess.certainty != Certainty::Certain && telegram.guess.certainty != guess.certainty {
             problems += 1;
         }
-        let (known, wrong) = self.known(index, &hypothesis, &guess);
+        let in_words = self.in_words(index, &hypothesis, &guess);
+        let wrong = in_words.as_ref().map_or(0, |detail| detail.device.problems.len());
+        let known = wrong == 0 && in_words.as_ref().is_some_and(|detail| !detail.device.blocks.is_empty());
         problems += wrong;
         let (removed, added) = hypothesis.difference(&telegram.line.bytes);
-        Explanation { problems, known, said: frame.meaning(), removed, added, hypothesis }
+        let said = in_words.map_or_else(|| frame.meaning(), |detail| detail.said);
+        Explanation { problems, known, said, removed, added, hypothesis }
     }
 }

@@ -125,6 +125,12 @@ pub struct Known {
     pub register: String,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
+    /// The parameter that the value stands for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stands_for: Option<String>,
+    /// What the manual says of it whatever its value: other addresses, software versions.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub facts: Vec<String>,
 }
 
 #[derive(Debug, Serialize)]
@@ -305,6 +311,8 @@ fn known(block: &Block) -> Known {
         status: block.status().map(text),
         register: block.registers(),
         note: block.note.clone().map(text),
+        stands_for: block.stands_for.clone().map(text),
+        facts: block.facts.iter().map(Message::to_string).collect(),
     }
 }
 

@@ -13,7 +13,7 @@
 //! ```
 
 use super::{Entries, Settings};
-use crate::device::{Entry, Mapping, ProcessWord, keb_f5, mapping_entry};
+use crate::device::{self, Entry, Mapping, ProcessWord, keb_f5, mapping_entry};
 use crate::field::{Bits, Format, Message, Name, Role, Spec};
 use crate::message;
 use crate::modbus::{DIALECTS, STANDARD};
@@ -114,7 +114,9 @@ impl Telegram for Settings {
             w.u8(spec, &mut bytes)?;
             *size = bytes.into();
         }
-        Ok(())
+        let Self { device: device::Settings { read_mapping, write_mapping, .. }, .. } = self;
+        used(w, &READ_USED, &mut read_mapping.used)?;
+        used(w, &WRITE_USED, &mut write_mapping.used)
     }
 }
 
@@ -124,6 +126,14 @@ fn mapping(w: &mut dyn Walker, spec: &'static Spec, mapping: &mut Mapping) -> Wa
         let count = w.announce(&COUNT, 1, mapping.entries.len(), 1)?;
         w.list(&ENTRIES, &mut mapping.entries, count, Some(0), |w, Entry(raw)| w.u32(&ENTRY, raw))
     })
+}
+
+/// How many entries of a list are in use; one number stands for not knowing.
+fn used(w: &mut dyn Walker, spec: &'static Spec, used: &mut Option<usize>) -> Walk {
+    let mut number = used.and_then(|used| u8::try_from(used).ok()).unwrap_or(NOT_KNOWN);
+    w.u8(spec, &mut number)?;
+    *used = Some(number).filter(|number| *number != NOT_KNOWN).map(usize::from);
+    Ok(())
 }
 
 fn process(w: &mut dyn Walker, spec: &'static Spec, words: &mut Vec<ProcessWord>) -> Walk {
@@ -160,6 +170,18 @@ static START: Spec = Spec::new("start", "Start address").role(Role::Address).for
 static COUNT: Spec = Spec::new("count", "Number").role(Role::Count);
 static ENTRIES: Spec = Spec::new("entries", "Entries");
 static ENTRY: Spec = mapping_entry("entry", "Entry");
+
+const NOT_KNOWN: u8 = 255;
+static READ_USED: Spec = in_use("read_entries_used", "Entries of the reading list in use");
+static WRITE_USED: Spec = in_use("write_entries_used", "Entries of the writing list in use");
+
+const fn in_use(key: &'static str, label: &'static str) -> Spec {
+    Spec::new(key, label)
+        .role(Role::Count)
+        .names(&[Name { value: NOT_KNOWN as u64, label: "not known", note: "" }])
+        .note("MDB_MapNr_Rd and MDB_MapNr_Wr: entries behind them count for nothing; 2 as delivered.")
+        .source("KEB COMBIVERT F5 Modbus operator, 3")
+}
 
 static PROCESS_OUTPUT: Spec = Spec::new("process_output", "Process output data")
     .note("What the words to the device carry; as delivered control word and set speed.")
@@ -205,7 +227,8 @@ mod tests {
         settings.frame.dialect = DIALECTS[1];
         settings.frame.profibus.swap_process = true;
         settings.frame.profibus.layout = Layout { channel: false, outputs: 2, inputs: 8 };
-        settings.device.read_mapping = Mapping { start: 16, entries: vec![Entry(0x0033_0101), Entry(0)] };
+        settings.device.read_mapping =
+            Mapping { start: 16, entries: vec![Entry(0x0033_0101), Entry(0)], used: Some(2) };
         settings.device.process_output = vec![ProcessWord { index: 0x2034, sets: 3 }];
         for again in [read(&write(&settings)).unwrap(), from_bytes(&to_bytes(&settings))] {
             assert_eq!(again.device, settings.device);

@@ -129,6 +129,11 @@ impl Reader<'_> {
             };
             self.problem(Problem::warning("reserved-bits", self.last_span(), message));
         }
+        if !spec.defines(raw) {
+            let (label, raw) = (Argument::Term(spec.label), self.shown(spec, raw));
+            let message = message!("{label}: the manual does not define {raw}", label = label, raw = raw);
+            self.problem(Problem::warning("not-defined", self.last_span(), message));
+        }
         if let Some(wrong) = spec.rule.and_then(|rule| rule(raw)) {
             let (label, wrong) = (Argument::Term(spec.label), Argument::Term(wrong));
             let message = message!("{label}: {wrong}", label = label, wrong = wrong);

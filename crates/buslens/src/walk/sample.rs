@@ -1,5 +1,5 @@
 use super::{Algorithm, Items, Part, Telegram, Walk, Walker};
-use crate::field::Spec;
+use crate::field::{Name, Range, Spec};
 
 /// Fills `telegram` with random values that keep the limits of their fields.
 ///
@@ -23,8 +23,32 @@ impl Sampler<'_> {
     }
 }
 
+impl Sampler<'_> {
+    /// One of the values that the manual defines, where it defines all.
+    fn named(&mut self, spec: &'static Spec) -> u64 {
+        let one_of = |sampler: &mut Self, names: &'static [Name], ranges: &'static [Range]| {
+            let values = names.iter().map(|name| name.value).chain(ranges.iter().map(|range| range.from));
+            let values: Vec<u64> = values.collect();
+            let drawn = sampler.between((0, values.len().saturating_sub(1) as u64)) as usize;
+            values.get(drawn).copied()
+        };
+        if spec.bits.is_empty() {
+            return one_of(self, spec.names, spec.ranges).unwrap_or_default();
+        }
+        spec.bits.iter().filter(|part| !part.reserved).fold(0, |raw, part| {
+            let value = one_of(self, part.names, part.ranges);
+            let value = value.unwrap_or_else(|| self.between((0, part.of(u64::MAX))));
+            part.put(raw, value)
+        })
+    }
+}
+
 impl Walker for Sampler<'_> {
     fn number(&mut self, spec: &'static Spec, width: usize, raw: &mut u64) -> Walk {
+        if spec.only_named {
+            *raw = self.named(spec);
+            return Ok(());
+        }
         let widest = u64::MAX >> (64 - 8 * width);
         let drawn = self.between(spec.limits.unwrap_or((0, widest)));
         *raw = spec.bits.iter().filter(|part| part.reserved).fold(drawn, |raw, part| part.put(raw, 0));

@@ -8,15 +8,16 @@ use std::cmp::Ordering;
 use super::UNUSED;
 use super::command::{Command, Function, Functions, Second, names};
 use super::text::{Say, Text, check_length, check_number};
-use crate::field::{Name, Role, Spec};
+use crate::device::Settings;
+use crate::field::{Argument, Message, Name, Role, Spec};
 use crate::message;
 use crate::walk::{Telegram, Walk, Walker};
 
-pub fn write() -> Box<dyn Telegram> {
+pub fn write(_: &Settings) -> Box<dyn Telegram> {
     Box::new(Command::new(&FUNCTIONS, 1))
 }
 
-pub fn read() -> Box<dyn Telegram> {
+pub fn read(_: &Settings) -> Box<dyn Telegram> {
     Box::new(Status { communication: 0, states: vec![0; BATCHES], unused: Vec::new() })
 }
 
@@ -56,6 +57,7 @@ static BATCH: Spec = Spec::new("batch", "Batch")
 
 static USER: Text = Text::new(
     Spec::new("user", "User")
+        .told(tell_user)
         .note(
             "Who does it, as ID;name, where the device has its user administration switched on. \
              ID: at most 8 characters, name: at most 20.",
@@ -98,6 +100,16 @@ static PRESET: Text = Text::new(
 )
 .required()
 .rule(check_preset);
+
+/// "ID IDSPS, name RemoteX".
+fn tell_user(text: &str) -> Option<Message> {
+    let (id, name) = text.trim_end_matches(' ').split_once(';')?;
+    Some(message!(
+        "ID {id}, name {name}",
+        id = Argument::Text(id.to_owned()),
+        name = Argument::Text(name.to_owned())
+    ))
+}
 
 fn check_user(text: &str, say: Say<'_>) {
     match text.split_once(';') {
@@ -144,6 +156,14 @@ impl Status {
     }
 }
 
+/// The status and the four batches.
+pub static READS: Spec = Spec::new("registers", "Registers")
+    .role(Role::Count)
+    .initial(3)
+    .names(&[Name { value: 3, label: "communication status and batches", note: "" }])
+    .note("How many registers are read.")
+    .source(SOURCE);
+
 static COMMUNICATION: Spec = Spec::new("communication_status", "Communication status")
     .short("Status")
     .role(Role::Status)
@@ -171,6 +191,7 @@ static STATES: Spec = Spec::new("states", "Batches").note("A byte for each batch
 static STATE: Spec = Spec::new("state", "Batch")
     .role(Role::Status)
     .names(&[Name { value: 0, label: "stopped", note: "" }, Name { value: 1, label: "running", note: "" }])
+    .only_named()
     .note("Whether the batch runs.")
     .source(SOURCE);
 

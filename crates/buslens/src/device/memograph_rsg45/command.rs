@@ -2,7 +2,7 @@
 //! end of the registers where the function has one.
 
 use super::text::{Text, unpadded};
-use crate::field::{Argument, Message, Name, Role, Severity, Spec};
+use crate::field::{Argument, Message, Name, Role, Severity, Spec, hex_value};
 use crate::message;
 use crate::walk::{Telegram, Walk, Walker};
 
@@ -31,7 +31,7 @@ pub enum Second {
     Number(&'static Spec),
     /// The same, with more to say of it than limits can.
     Checked(&'static Spec, fn(u8) -> Option<Message>),
-    /// Always the same: it only fills the register.
+    /// It only fills the register: the manual has this byte there.
     Filler(&'static Spec, u8),
 }
 
@@ -65,7 +65,11 @@ pub struct Command {
 impl Command {
     /// An empty one of the function `code`.
     pub fn new(functions: &'static Functions, code: u8) -> Self {
-        Self { functions, code, number: 1, text: Vec::new() }
+        let number = match functions.find(code.into()).map(|function| function.second) {
+            Some(Second::Filler(_, filler)) => filler,
+            _ => 1,
+        };
+        Self { functions, code, number, text: Vec::new() }
     }
 }
 
@@ -92,7 +96,14 @@ impl Telegram for Command {
                     w.remark(spec, Severity::Error, "out-of-range", message);
                 }
             }
-            Second::Filler(spec, filler) => w.derived(spec, 1, Some(filler.into()))?,
+            Second::Filler(spec, filler) => {
+                w.u8(spec, &mut self.number)?;
+                if self.number != filler {
+                    let message =
+                        message!("the manual pads with {filler} here", filler = hex_value(filler.into(), 1));
+                    w.remark(spec, Severity::Warning, "other-padding", message);
+                }
+            }
         }
         let Some(text) = function.text else { return Ok(()) };
         text.walk(w, &mut self.text)?;

@@ -1,10 +1,11 @@
 //! A line for the event list, from register 3024 on: up to 40 characters.
 
 use super::text::Text;
+use crate::device::Settings;
 use crate::field::Spec;
 use crate::walk::{Telegram, Walk, Walker};
 
-pub fn write() -> Box<dyn Telegram> {
+pub fn write(_: &Settings) -> Box<dyn Telegram> {
     Box::new(EventText { text: Vec::new() })
 }
 

@@ -11,17 +11,29 @@
 use super::UNUSED;
 use super::command::{Command, Function, Functions, Second, names};
 use super::text::{Say, Text, check_number, check_whole};
-use crate::field::{Format, Message, Name, Role, Spec};
+use crate::device::Settings;
+use crate::field::{Argument, Format, Message, Name, Role, Spec};
 use crate::message;
 use crate::walk::{Telegram, Walk, Walker};
 
-pub fn write() -> Box<dyn Telegram> {
+pub fn write(_: &Settings) -> Box<dyn Telegram> {
     Box::new(Command::new(&FUNCTIONS, 1))
 }
 
-pub fn read() -> Box<dyn Telegram> {
-    Box::new(Limit::default())
+pub fn read(settings: &Settings) -> Box<dyn Telegram> {
+    Box::new(Limit { read_back: settings.present.limits_read_back, ..Limit::default() })
 }
+
+/// One register for the status, eight for a limit.
+pub static READS: Spec = Spec::new("registers", "Registers")
+    .role(Role::Count)
+    .initial(1)
+    .names(&[
+        Name { value: 1, label: "communication status", note: "What became of the last function." },
+        Name { value: 8, label: "record of a limit", note: "Once reading back is on." },
+    ])
+    .note("How many registers are read: that decides what they hold.")
+    .source(SOURCE);
 
 static FUNCTIONS: Functions = Functions {
     spec: Spec::new("function", "Function")
@@ -81,7 +93,7 @@ const FILLER: Second = Second::Filler(&FILLER_BYTE, 0x2A);
 static FILLER_BYTE: Spec = Spec::new("filler", "Filler")
     .role(Role::Unknown)
     .format(Format::Hex)
-    .note("Always 2Ah. It only fills the register.")
+    .note("It only fills the register: the manual pads with 2Ah.")
     .source(SOURCE);
 
 static LIMIT: Spec = Spec::new("limit", "Limit")
@@ -116,6 +128,7 @@ static OPEN: Spec = Spec::new("second_byte", "Second byte")
 /// No longest length in the manual: as much as the registers hold.
 static CHANGE: Text = Text::new(
     Spec::new("new_values", "New values")
+        .told(tell_change)
         .note(
             "Value;span;delay;value 2, such as 5.22;;60 for a value of 5.22 and a delay of 60 s. What is \
              left out stays as it is. Span: 0 to 60 s; delay: 0 to 99999 s; value 2: upper limit of a band.",
@@ -133,7 +146,27 @@ static REASON: Text = Text::new(
     30,
 );
 
+/// "value 5.22, delay 60 s".
+fn tell_change(text: &str) -> Option<Message> {
+    let parts = text.split(';').map(str::trim).enumerate().filter(|(_, part)| !part.is_empty());
+    Message::list(parts.map(|(index, part)| {
+        let part = Argument::Text(part.to_owned());
+        match index {
+            0 => message!("value {part}", part = part),
+            1 => message!("span {part} s", part = part),
+            2 => message!("delay {part} s", part = part),
+            3 => message!("value 2 {part}", part = part),
+            _ => message!("{part} too many", part = part),
+        }
+    }))
+}
+
 fn check_change(text: &str, say: Say<'_>) {
+    // The device takes no notice of spaces.
+    let text: String = text.chars().filter(|c| *c != ' ').collect();
+    if text.bytes().all(|byte| byte == b';') {
+        say("nothing-new", message!("all values are left out: nothing is changed"));
+    }
     for (index, part) in text.split(';').enumerate().filter(|(_, part)| !part.is_empty()) {
         match index {
             0 => _ = check_number(VALUE.label, part, say),
@@ -160,13 +193,15 @@ struct Limit {
     span: u16,
     delay: u32,
     value_2: u32,
+    /// Limits are being read back: no status comes.
+    read_back: bool,
 }
 
 impl Telegram for Limit {
     fn walk(&mut self, w: &mut dyn Walker) -> Walk {
         w.u8(&NUMBER, &mut self.number)?;
         if self.number == 0 {
-            w.u8(&STATUS, &mut self.status)?;
+            w.u8(if self.read_back { &NO_LIMIT } else { &STATUS }, &mut self.status)?;
         } else {
             w.u8(&KIND, &mut self.kind)?;
             w.u32(&VALUE, &mut self.value)?;
@@ -181,13 +216,21 @@ impl Telegram for Limit {
 static NUMBER: Spec = Spec::new("limit", "Limit")
     .role(Role::Address)
     .limits(0, MOST)
-    .names(&[Name { value: 0, label: "no record", note: "" }])
+    .names(&[Name { value: 0, label: "", note: "No limit, but a status." }])
     .note("The limit's number. After each reading the device goes on to the next active limit.")
+    .source(SOURCE);
+
+/// While limits are read back, zeros say that there is none.
+static NO_LIMIT: Spec = Spec::new("no_limit", "Read back")
+    .role(Role::Status)
+    .names(&[Name { value: 0, label: "no limit is active", note: "" }])
+    .note("While limits are read back, the device gives one after the other, and no status.")
     .source(SOURCE);
 
 static STATUS: Spec = Spec::new("communication_status", "Communication status")
     .short("Status")
     .role(Role::Status)
+    .only_named()
     .note("What became of the last function over limits.")
     .source(SOURCE)
     .names(&[
@@ -204,8 +247,12 @@ static STATUS: Spec = Spec::new("communication_status", "Communication status")
         Name { value: 9, label: "error", note: "" },
     ]);
 
-static KIND: Spec =
-    Spec::new("type", "Limit type").short("Type").note("What the limit watches.").source(SOURCE).names(&[
+static KIND: Spec = Spec::new("type", "Limit type")
+    .short("Type")
+    .note("What the limit watches.")
+    .source(SOURCE)
+    .only_named()
+    .names(&[
         Name { value: 0, label: "off", note: "" },
         Name { value: 1, label: "upper limit", note: "" },
         Name { value: 2, label: "lower limit", note: "" },

@@ -1,13 +1,14 @@
 //! Relays, register 3152. Written: relay (1 byte), state (1 byte). Read: a bit for each relay.
 
+use crate::device::Settings;
 use crate::field::{Bits, Name, Role, Spec};
 use crate::walk::{Telegram, Walk, Walker};
 
-pub fn write() -> Box<dyn Telegram> {
+pub fn write(_: &Settings) -> Box<dyn Telegram> {
     Box::new(Switch { relay: 1, state: 0 })
 }
 
-pub fn read() -> Box<dyn Telegram> {
+pub fn read(_: &Settings) -> Box<dyn Telegram> {
     Box::new(States { states: 0 })
 }
 
@@ -47,8 +48,8 @@ impl Telegram for States {
     }
 }
 
-static STATES: Spec = Spec::new("states", "Active relays")
-    .short("Active")
+static STATES: Spec = Spec::new("states", "Relays")
+    .short("Relays")
     .role(Role::Status)
     .bits(&[
         Bits::flag(0, "relay_1", "relay 1"),
@@ -65,5 +66,6 @@ static STATES: Spec = Spec::new("states", "Active relays")
         Bits::flag(11, "relay_12", "relay 12"),
         Bits::reserved(12, 4),
     ])
+    .flagged("active", "none active")
     .note("Bit 0 is relay 1, and so on; 1 is active.")
     .source("Memograph M RSG45 Modbus supplement, 2.6.9");

@@ -39,6 +39,11 @@ pub enum Cause {
     Cut,
     /// It is of another protocol.
     OtherProtocol,
+    /// The manual prints it so, with slips.
+    Misprint {
+        section: &'static str,
+        slips: &'static str,
+    },
 }
 
 /// How often it happens, as the number of times that it has to be halved from "always". From what
@@ -110,6 +115,7 @@ impl Cause {
             Self::EchoInFront => "echo-in-front",
             Self::Cut => "cut",
             Self::OtherProtocol => "other-protocol",
+            Self::Misprint { .. } => "misprint",
         }
     }
 }

@@ -21,7 +21,7 @@ mod sum;
 
 pub use cause::Cause;
 
-use crate::field::{Message, Span, hex, hex_value};
+use crate::field::{Argument, Message, Span, hex, hex_value};
 use crate::frame::{Protocol, modbus_ascii, modbus_rtu, profibus_fdl};
 use crate::message;
 
@@ -128,6 +128,12 @@ fn bits(cause: Cause, tries: Option<usize>) -> u32 {
 }
 
 impl Hypothesis {
+    /// What is known and not searched for: `bytes` are what `found` should be.
+    pub fn known(cause: Cause, found: &[u8], bytes: Vec<u8>) -> Self {
+        let place = found.iter().zip(&bytes).take_while(|(found, right)| found == right).count();
+        Self { cause, place, bytes, tries: Some(1), protocol: None, checks: CHECKS }
+    }
+
     /// How unlikely it is, in halvings: rare causes and those with many ways to come are.
     pub fn bits(&self) -> u32 {
         bits(self.cause, self.tries)
@@ -244,6 +250,11 @@ impl Hypothesis {
             Cause::Cut => {
                 message!("its end is missing: it would have {n}", n = Message::bytes(self.bytes.len()))
             }
+            Cause::Misprint { section, slips } => message!(
+                "the manual prints it so in section {section}, with slips: {slips}",
+                section = section.to_owned(),
+                slips = Argument::Term(slips)
+            ),
             Cause::OtherProtocol => message!(
                 "it is of {protocol}",
                 protocol = self.protocol.map_or("another protocol", |protocol| protocol.label).to_owned()

@@ -3,16 +3,17 @@
 use std::collections::{HashMap, HashSet};
 
 use super::collect::Traffic;
-use super::entry::{Entry, Role};
+use super::entry::{Entry, Hint, Role};
 use crate::dialogue::evidence::{self, CONVERSATION, OTHER_KIND, SAME, SEEN};
 use crate::dialogue::foreign::FT12;
-use crate::dialogue::{Candidate, protocols, turns};
+use crate::dialogue::{Candidate, Certainty, protocols, turns};
 use crate::field::{Direction, Facts, Span};
 use crate::frame::{
     Protocol, Speaker, Verdict, modbus_ascii, modbus_pdu, modbus_rtu, modbus_tcp, modbus_unchecked,
     profibus_fdl,
 };
 use crate::modbus::EXCEPTION;
+use crate::profibus::{Channel, Service};
 
 /// An entry without a proof.
 #[derive(Clone, Copy, Debug)]
@@ -224,12 +225,39 @@ impl Traffic {
         let leanings: Vec<i32> =
             self.entries.iter().filter_map(|entry| Some(leaning(entry)?(bytes(entry, &self.data)))).collect();
         let mut guesses = turns(&leanings).into_iter();
-        for entry in self.entries.iter_mut().filter(|entry| leaning(entry).is_some()) {
-            let told = guesses.next().and_then(|guess| guess.told());
+        let mut before: Option<(Span, Direction)> = None;
+        for index in 0..self.entries.len() {
+            let entry = self.entries[index];
+            let place = Span::new(entry.at as usize, entry.at as usize + usize::from(entry.length));
+            let Some(guess) = leaning(&entry).and_then(|_| guesses.next()) else { continue };
+            // A slave repeats what it wrote: byte for byte, where it sets the length, too.
+            let repeats = before.is_some_and(|(asked, direction)| {
+                direction == Direction::Request
+                    && asked.of(&self.data) == place.of(&self.data)
+                    && self.writes(&entry)
+            });
+            let said = match entry.hint {
+                Hint::Says(direction) => Some(direction),
+                _ => None,
+            };
+            let told = match guess.certainty {
+                _ if said.is_some() => said,
+                Certainty::Certain => guess.told(),
+                _ if repeats => Some(Direction::Response),
+                _ => guess.told(),
+            };
             if let Some(direction) = told.filter(|_| self.direction.is_none()) {
-                entry.sides = [direction == Direction::Request, direction == Direction::Response];
+                self.entries[index].sides =
+                    [direction == Direction::Request, direction == Direction::Response];
             }
+            before = Some((place, told.unwrap_or(guess.direction)));
         }
+    }
+
+    /// Whether a parameter channel asks to write.
+    fn writes(&self, entry: &Entry) -> bool {
+        let channel = Channel::read(bytes(entry, &self.data), Direction::Request, &self.settings.profibus);
+        channel.service() == Service::Write
     }
 
     /// Makes entries of telegrams that were found without their ends.
@@ -290,6 +318,7 @@ impl Traffic {
             let telegram = bytes(&self.entries[index], &self.data).to_vec();
             let sure = (chosen.fit)(&telegram, &self.settings).bits >= 16;
             let other = sure
+                || self.settings.bus.is_some_and(|bus| bus == chosen.bus() && bus != own.bus())
                 || (self.lacks_data(index) && !one.cut)
                 || family(chosen) != Family::Serial
                 || !one.read
@@ -327,7 +356,8 @@ impl Traffic {
         let own = bytes(entry, &self.data);
         let facts = &one.facts;
         // What one person types into an empty page is meant to be one.
-        if typed && (one.read || weak.len() == 1) && !facts.abridged {
+        let meant = one.read || weak.len() == 1 || self.settings.bus.is_some();
+        if typed && meant && !facts.abridged {
             return true;
         }
         // Nothing so short can be told from other things.

@@ -8,6 +8,7 @@ use crate::dialogue::Cause;
 use crate::field::{Direction, Message, grouped, many};
 use crate::frame::Verdict;
 use crate::message;
+use crate::tool::{Proposal, ValueFinding, value_findings};
 
 /// Something that explains much of what went wrong.
 #[derive(Clone, Debug)]
@@ -34,7 +35,39 @@ impl Log {
         findings.extend(self.of_lateness());
         findings.extend(self.of_clients());
         findings.extend(self.of_pauses());
+        findings.extend(self.of_values(source));
         findings
+    }
+
+    /// Which devices the units look like, where none is chosen; by the beginning of the log.
+    pub fn proposals(&self, source: &dyn Source) -> Vec<Proposal> {
+        let indices = self.beginning();
+        let mut found = crate::tool::proposals(&self.report(source, &indices));
+        for proposal in &mut found {
+            proposal.evidence = proposal.evidence.iter().filter_map(|at| indices.get(*at)).copied().collect();
+        }
+        found
+    }
+
+    /// What the values show, by the beginning of the log.
+    fn of_values(&self, source: &dyn Source) -> Vec<Finding> {
+        if self.options().device.is_none() {
+            return Vec::new();
+        }
+        let indices = self.beginning();
+        let found = value_findings(&self.report(source, &indices)).into_iter();
+        let finding = |found: ValueFinding| {
+            let evidence = found.evidence.iter().filter_map(|at| Some(*indices.get(*at)? as u32));
+            Finding { code: found.code, text: found.text, evidence: evidence.take(EVIDENCE).collect() }
+        };
+        found.map(finding).collect()
+    }
+
+    /// As many telegrams from the first on as can be read one by one.
+    fn beginning(&self) -> Vec<usize> {
+        const MOST: usize = 4000;
+        let counted = self.entries().iter().enumerate().filter(|(_, entry)| entry.counts());
+        counted.map(|(index, _)| index).take(MOST).collect()
     }
 
     fn indices(&self, chosen: impl Fn(&Entry) -> bool) -> Vec<u32> {

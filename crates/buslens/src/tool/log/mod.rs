@@ -127,6 +127,10 @@ pub fn decode_file(file: &[u8], reading: &Reading, options: Options) -> Result<R
         // Nothing in it is nothing wrong.
         Err(Refusal::Empty) => Ok(Report::nothing("", options)),
         Err(refusal) => Err(refusal),
+        // What a display shows is text, too.
+        Ok(log) if log.entries().is_empty() && matches!(log.format, Format::Text { .. }) => {
+            Ok(log.typed_report(&String::from_utf8_lossy(file)))
+        }
         Ok(log) => Ok(log.whole_report(&file)),
     }
 }
@@ -155,8 +159,7 @@ impl Log {
         reading: &Reading,
         mut options: Options,
     ) -> Result<Self, Refusal> {
-        let ident = &mut options.settings.frame.profibus.ident;
-        *ident = ident.or(options.device.and_then(|device| device.ident));
+        options.take_device();
         if size > LARGEST {
             return Err(Refusal::TooLarge { size, most: LARGEST });
         }

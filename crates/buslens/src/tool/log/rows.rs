@@ -153,7 +153,7 @@ impl Log {
             return;
         };
         let teaches = |entry: &Entry| {
-            matches!(entry.function, 6 | 16 | 101)
+            matches!(entry.function, 6 | 16 | 100 | 101)
                 && entry.direction == Direction::Request
                 && self.registers(entry).is_some_and(|(start, count)| {
                     (start..=start.saturating_add(count)).any(|address| profile.teaches(address))
