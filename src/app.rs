@@ -1,0 +1,102 @@
+//! The app: the views by address, and what outlasts them.
+
+use std::rc::Rc;
+
+use leptos::ev::{DragEvent, MouseEvent};
+use leptos::prelude::*;
+
+use crate::address::{Address, Shows, View};
+use crate::components::header::Header;
+use crate::components::toast::{ToastList, Toasts};
+use crate::views::build::{Build, BuildState};
+use crate::views::check::{Check, CheckState};
+use crate::views::devices::{DeviceSettings, Devices};
+use crate::views::read::{Read, ReadState};
+use crate::views::sheet::Sheet;
+use buslens::tool::link::Link;
+
+#[component]
+pub fn App() -> impl IntoView {
+    let address = Address::new();
+    let toasts = Toasts::new();
+    provide_context(address);
+    provide_context(toasts);
+    let devices = DeviceSettings::new();
+    provide_context(devices);
+    let read = ReadState::new(address, devices);
+    let build = BuildState::new();
+    let check = CheckState::new();
+    provide_context(read);
+    provide_context(build);
+    provide_context(check);
+    address.keep(Rc::new(States { read, build, check, devices, toasts }));
+
+    Effect::new(move |_| document().set_title(&format!("{} - Buslens", address.view().label())));
+    let main = NodeRef::<leptos::html::Main>::new();
+    // The address holds the view, and so no place in the page.
+    let skip = move |event: MouseEvent| {
+        event.prevent_default();
+        if let Some(main) = main.get_untracked() {
+            let _ = main.focus();
+        }
+    };
+    let dropped = move |event: DragEvent| {
+        let files = event.data_transfer().and_then(|data| data.files());
+        let Some(file) = files.and_then(|files| files.get(0)) else { return };
+        event.prevent_default();
+        read.open(file);
+        address.go_to(View::Read);
+    };
+    let view = move || match address.view() {
+        View::Read => view! { <Read /> }.into_any(),
+        View::Build => view! { <Build /> }.into_any(),
+        View::Check => view! { <Check /> }.into_any(),
+        View::Devices => view! { <Devices /> }.into_any(),
+        View::Sheet => view! { <Sheet /> }.into_any(),
+    };
+    view! {
+        <div class="app" on:dragover=|event| event.prevent_default() on:drop=dropped>
+            <a class="skip" href="#main" on:click=skip>
+                "Skip to the content"
+            </a>
+            <Header />
+            <main tabindex="-1" node_ref=main>
+                {view}
+            </main>
+            <ToastList />
+        </div>
+    }
+}
+
+/// What the views show.
+struct States {
+    read: ReadState,
+    build: BuildState,
+    check: CheckState,
+    devices: DeviceSettings,
+    toasts: Toasts,
+}
+
+impl Shows for States {
+    fn link(&self, view: View) -> Link {
+        match view {
+            View::Read | View::Sheet => self.read.link(),
+            View::Build => self.build.link(),
+            View::Check => self.check.link(),
+            View::Devices => self.devices.link(),
+        }
+    }
+
+    fn follow(&self, view: View, link: Link) {
+        match view {
+            View::Read | View::Sheet => self.read.follow(link),
+            View::Build => self.build.follow(link),
+            View::Check => self.check.follow(link),
+            View::Devices => self.devices.follow(link),
+        }
+    }
+
+    fn refuse(&self, why: &str) {
+        self.toasts.say(why);
+    }
+}

@@ -1,0 +1,7 @@
+//! What the browser is asked for, besides showing the page.
+
+pub mod clipboard;
+pub mod compression;
+pub mod file;
+pub mod panic;
+pub mod storage;

@@ -1,0 +1,7 @@
+//! The views, a folder each: its state, which outlasts it, and its parts.
+
+pub mod build;
+pub mod check;
+pub mod devices;
+pub mod read;
+pub mod sheet;
