@@ -3,6 +3,7 @@
 pub mod annotated;
 mod build;
 pub mod byte;
+pub mod checksums;
 pub mod copy;
 pub mod csv;
 mod decode;
