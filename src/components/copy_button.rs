@@ -30,7 +30,7 @@ pub fn CopyButton(
         spawn_local(async move {
             if copy(toasts, text).await {
                 copied.set(true);
-                set_timeout(move || drop(copied.try_set(false)), SHOWN);
+                set_timeout(move || copied.set(false), SHOWN);
             }
         });
     };
