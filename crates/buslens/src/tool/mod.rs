@@ -19,6 +19,7 @@ pub mod log;
 mod offers;
 mod replies;
 pub mod settings;
+pub mod setup;
 pub mod steps;
 mod views;
 
