@@ -2,7 +2,7 @@
 //! and what is not as delivered in sentences.
 
 use super::Settings;
-use crate::device::{Entry, Mapping, Profile, ProcessWord};
+use crate::device::{Entry, Mapping, ProcessWord, Profile};
 use crate::field::{Argument, Message, hex_value};
 use crate::message;
 use crate::modbus::DIALECTS;
@@ -98,7 +98,8 @@ pub struct Row {
 }
 
 impl List {
-    pub const ALL: [Self; 4] = [Self::ReadMapping, Self::WriteMapping, Self::ProcessOutput, Self::ProcessInput];
+    pub const ALL: [Self; 4] =
+        [Self::ReadMapping, Self::WriteMapping, Self::ProcessOutput, Self::ProcessInput];
 
     /// The most rows that the device takes.
     pub const fn most(self) -> usize {
@@ -266,11 +267,9 @@ pub fn differences(settings: &Settings) -> Vec<Difference> {
             let rows = list.rows(settings);
             let names = Message::list(rows.iter().filter(|row| !row.second_half).map(name));
             let said = match names {
-                Some(names) => message!(
-                    "process {side} data carry {names}",
-                    side = Argument::Term(side),
-                    names = names
-                ),
+                Some(names) => {
+                    message!("process {side} data carry {names}", side = Argument::Term(side), names = names)
+                }
                 None => message!("process {side} data carry nothing", side = Argument::Term(side)),
             };
             tell(What::Words(list), said);
@@ -337,23 +336,18 @@ fn row_sentence(row: &Row, [one, several]: [&'static str; 2]) -> Message {
             verb = Argument::Term(several),
             name = name
         ),
-        _ => message!(
-            "register {first} {verb} {name}",
-            first = first,
-            verb = Argument::Term(one),
-            name = name
-        ),
+        _ => {
+            message!("register {first} {verb} {name}", first = first, verb = Argument::Term(one), name = name)
+        }
     }
 }
 
 /// "Status word (Sy.51)", or the address of what has no name here.
 fn name(row: &Row) -> Message {
     match parameter(row.parameter) {
-        Some(parameter) => message!(
-            "{label} ({id})",
-            label = Argument::Term(parameter.label),
-            id = parameter.id.to_owned()
-        ),
+        Some(parameter) => {
+            message!("{label} ({id})", label = Argument::Term(parameter.label), id = parameter.id.to_owned())
+        }
         None if row.raw == 0 => message!("nothing"),
         None => message!("parameter {address}", address = hex_value(row.parameter.into(), 2)),
     }
