@@ -22,6 +22,9 @@ const LONGEST_KEPT: usize = 2_000_000;
 /// Stands before what is compressed, in base64url.
 const COMPRESSED: &str = "z=";
 
+/// The entry of a link that names a file, which only this browser has.
+pub const FILE: &str = "file";
+
 /// The views of the page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum View {
@@ -137,6 +140,9 @@ impl Address {
     pub async fn link(&self) -> Option<String> {
         let view = self.view.get_untracked();
         let link = self.shows()?.link(view);
+        if link.entries.iter().any(|(path, _)| path == FILE) {
+            return None;
+        }
         let address = window().location().href().ok()?;
         let address = address.split('#').next().unwrap_or_default().to_owned();
         let content = packed(written(&link)).await?;

@@ -23,7 +23,7 @@ pub fn App() -> impl IntoView {
     provide_context(toasts);
     let devices = DeviceSettings::new();
     provide_context(devices);
-    let read = ReadState::new(address, devices);
+    let read = ReadState::new();
     let build = BuildState::new();
     let check = CheckState::new();
     provide_context(read);

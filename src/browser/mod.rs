@@ -3,5 +3,6 @@
 pub mod clipboard;
 pub mod compression;
 pub mod file;
+pub mod kept_file;
 pub mod panic;
 pub mod storage;

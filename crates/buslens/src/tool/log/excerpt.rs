@@ -149,7 +149,8 @@ mod tests {
 
     #[test]
     fn a_telegram_says_the_same_elsewhere() {
-        let text = "10:00:00.000 TX 01 03 00 C8 00 03 84 35\n10:00:00.030 RX 01 03 06 00 80 42 A4 F1 DE B0 F8\n";
+        let text =
+            "10:00:00.000 TX 01 03 00 C8 00 03 84 35\n10:00:00.030 RX 01 03 06 00 80 42 A4 F1 DE B0 F8\n";
         let options = Options { device: crate::tool::Profile::of("memograph-rsg45"), ..Options::default() };
         let log = Log::read(text.as_bytes(), &Reading::default(), options.clone()).unwrap();
         for index in 0..log.entries().len() {

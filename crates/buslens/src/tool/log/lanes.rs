@@ -58,8 +58,10 @@ impl Log {
         units.sort_by_key(|(telegrams, ..)| std::cmp::Reverse(*telegrams));
         units.truncate(MOST);
         units.sort_by_key(|(_, port, unit)| (*port, *unit));
-        let mut lanes: Vec<Lane> =
-            units.iter().map(|(_, port, unit)| Lane { port: *port, unit: *unit, ..Lane::default() }).collect();
+        let mut lanes: Vec<Lane> = units
+            .iter()
+            .map(|(_, port, unit)| Lane { port: *port, unit: *unit, ..Lane::default() })
+            .collect();
         lanes.push(Lane { others: true, ..Lane::default() });
         let lane_of = |entry: &Entry| {
             let found = units.iter().position(|(_, port, unit)| (*port, *unit) == (entry.port, entry.unit));

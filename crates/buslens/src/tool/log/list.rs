@@ -10,7 +10,7 @@ use crate::frame::Verdict;
 use crate::tool::decode::Report;
 
 /// How it went with a telegram, in one word: the gravest that there is to say of it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[cfg_attr(feature = "json", derive(Serialize, Deserialize))]
 pub enum State {
     /// A request that went its way, or a telegram that nothing is known of.
@@ -334,8 +334,12 @@ pub fn brief(said: &Message) -> String {
     let rest = text.strip_prefix(&who).map(|rest| rest.trim_start_matches([' ', ',', ':']));
     let mut brief = match rest {
         Some(rest) => {
-            let endings =
-                [("confirms what it wrote: ", "written: "), ("answers: ", ""), ("answers with ", ""), ("refuses: ", "")];
+            let endings = [
+                ("confirms what it wrote: ", "written: "),
+                ("answers: ", ""),
+                ("answers with ", ""),
+                ("refuses: ", ""),
+            ];
             let short = endings.iter().find_map(|(long, short)| Some((short, rest.strip_prefix(long)?)));
             short.map_or_else(|| rest.to_owned(), |(short, rest)| format!("{short}{rest}"))
         }
@@ -358,7 +362,8 @@ fn headline(telegrams: usize, damaged: usize, units: &[Unit]) -> String {
     }
     let name = |unit: &Unit| unit.unit.map_or("the other side".to_owned(), |unit| format!("unit {unit}"));
     let asked: Vec<&Unit> = units.iter().filter(|unit| unit.requests > 0).collect();
-    let silent: Vec<&Unit> = asked.iter().copied().filter(|unit| unit.answered == 0 && unit.unanswered > 0).collect();
+    let silent: Vec<&Unit> =
+        asked.iter().copied().filter(|unit| unit.answered == 0 && unit.unanswered > 0).collect();
     let mut clauses = Vec::new();
     match (asked.len(), &silent[..]) {
         (0, _) => clauses.push(many(telegrams, "telegram")),
@@ -367,7 +372,9 @@ fn headline(telegrams: usize, damaged: usize, units: &[Unit]) -> String {
         (1, [unit]) => clauses.push(format!("{} does not answer", name(unit))),
         (n, [unit]) => clauses.push(format!("{} of {n} units answer; {} is silent", n - 1, name(unit))),
         (n, silent) if n == silent.len() => clauses.push(format!("none of {n} units answers")),
-        (n, silent) => clauses.push(format!("{} of {n} units answer, {} are silent", n - silent.len(), silent.len())),
+        (n, silent) => {
+            clauses.push(format!("{} of {n} units answer, {} are silent", n - silent.len(), silent.len()))
+        }
     }
     let sum = |count: fn(&Unit) -> usize| asked.iter().map(|unit| count(unit)).sum::<usize>();
     let lost = sum(|unit| unit.unanswered) - silent.iter().map(|unit| unit.unanswered).sum::<usize>();
@@ -401,7 +408,10 @@ mod tests {
             (message!("{who} answers: {things}", who = who(), things = things()), "200 = 5"),
             (message!("ask {who} for {things}", who = who(), things = things()), "Read 200 = 5"),
             (message!("write to {who}: {things}", who = who(), things = things()), "Write 200 = 5"),
-            (message!("{who} confirms what it wrote: {things}", who = who(), things = things()), "Written: 200 = 5"),
+            (
+                message!("{who} confirms what it wrote: {things}", who = who(), things = things()),
+                "Written: 200 = 5",
+            ),
             (message!("{who} refuses: {things}", who = who(), things = things()), "200 = 5"),
             (message!("nothing of that"), "Nothing of that"),
         ] {
