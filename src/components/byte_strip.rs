@@ -6,7 +6,7 @@ use leptos::prelude::*;
 
 use super::roving;
 use buslens::field::{Field, Numbering, Role, Severity, Span, Value, leaves};
-use buslens::tool::Detail;
+use buslens::tool::{Detail, Entry};
 
 /// Bytes that a person looks at, and which one of them is explained.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -205,6 +205,12 @@ fn caption(leaf: &Field) -> String {
         Value::Group | Value::Bytes => String::new(),
         Value::Text(_) => leaf.value_text(),
     }
+}
+
+/// Where the bytes of a form's entry stand in the telegram.
+pub fn span_of(detail: &Detail, entry: &Entry) -> Option<Span> {
+    let fits = |leaf: &&Field| leaf.spec == entry.spec && (entry.number.is_none() || leaf.number == entry.number);
+    fields_by_byte(detail).into_iter().find(fits).map(|leaf| leaf.span)
 }
 
 /// The leaves in the order of their bytes, each byte in one of them.

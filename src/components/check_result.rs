@@ -26,7 +26,7 @@ fn Checked(shown: Shown, check: Check, lights: Lights) -> impl IntoView {
     let short = name.split(['-', '/']).next().unwrap_or(&name).to_owned();
     let covered = check.covered;
     let choose = move |_| lights.chosen.set(Some(Chosen { span: covered, at: covered.from }));
-    let followed = href(View::Check, &link_to(covered.of(shown.bytes()), check.kind));
+    let followed = href(View::Check, &link_to(Span::new(covered.from, covered.to + check.width).of(shown.bytes()), check.kind));
     let title = if ok { format!("{short} is valid") } else { format!("{short} does not match") };
     let order = if check.low_first && check.width > 1 { "low byte first" } else { "" };
     let corrected = hex(&corrected(shown.bytes(), &check));

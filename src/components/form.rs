@@ -74,6 +74,9 @@ pub fn Form(
     /// Only these entries, by their paths; all of them without.
     #[prop(optional)]
     only: &'static [&'static str],
+    /// The entries of these groups stand among the others.
+    #[prop(optional)]
+    flat: &'static [&'static str],
 ) -> impl IntoView {
     static FORMS: AtomicUsize = AtomicUsize::new(0);
     let number = FORMS.fetch_add(1, Ordering::Relaxed);
@@ -81,7 +84,11 @@ pub fn Form(
     let shown = Memo::new(move |_| {
         entries.with(|all| {
             let wanted = |entry: &&Entry| only.is_empty() || only.contains(&entry.path.as_str());
-            all.form.entries.iter().filter(wanted).cloned().collect::<Vec<_>>()
+            let shown = all.form.entries.iter().filter(wanted).flat_map(|entry| match &entry.content {
+                Content::Group { entries } if flat.contains(&entry.path.as_str()) => entries.clone(),
+                _ => vec![entry.clone()],
+            });
+            shown.collect::<Vec<_>>()
         })
     });
     view! { <div class="form">{level(shown.into(), false)}</div> }

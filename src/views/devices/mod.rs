@@ -59,7 +59,7 @@ pub fn Devices() -> impl IntoView {
 
 /// Says that a link's settings count.
 #[component]
-fn Borrowed() -> impl IntoView {
+pub fn Borrowed() -> impl IntoView {
     let state = expect_context::<DeviceSettings>();
     view! {
         <Show when=move || state.is_of_link()>

@@ -27,7 +27,7 @@ pub use crate::device::{Block, Draft, PROFILES, Profile, Task};
 pub use crate::dialogue::Certainty;
 pub use crate::frame::{PROTOCOLS, Protocol, Verdict};
 pub use crate::text::{Remark, Style};
-pub use crate::walk::form::{Content, Entry, parse_value};
+pub use crate::walk::form::{Content, Entry, Misfit, parse_value};
 pub use crate::walk::guide::{Row, Size};
 pub use build::build;
 pub use decode::{Options, Report, Settings, Summary, Telegram, decode};
