@@ -12,7 +12,7 @@ use crate::views::build::{Build, BuildState};
 use crate::views::check::{Check, CheckState};
 use crate::views::devices::{DeviceSettings, Devices};
 use crate::views::read::{Read, ReadState};
-use crate::views::sheet::Sheet;
+use crate::views::sheet::{Sheet, SheetState};
 use buslens::tool::link::Link;
 
 #[component]
@@ -29,6 +29,7 @@ pub fn App() -> impl IntoView {
     provide_context(read);
     provide_context(build);
     provide_context(check);
+    provide_context(SheetState::new());
     address.keep(Rc::new(States { read, build, check, devices, toasts }));
 
     Effect::new(move |_| document().set_title(&format!("{} - Buslens", address.view().label())));

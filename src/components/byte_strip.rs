@@ -200,7 +200,10 @@ fn caption(leaf: &Field) -> String {
             None if !leaf.spec.bits.is_empty() => leaf.meaning().map_or(String::new(), |it| it.to_string()),
             None => leaf.value_text(),
         },
-        Value::Selector { chosen, .. } => chosen.label.to_lowercase(),
+        // "read" of "Read holding registers": the field table has all of it.
+        Value::Selector { chosen, .. } => {
+            chosen.label.split(' ').next().unwrap_or_default().to_lowercase()
+        }
         Value::Missing { .. } => "cut off".to_owned(),
         Value::Group | Value::Bytes => String::new(),
         Value::Text(_) => leaf.value_text(),

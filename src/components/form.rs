@@ -44,6 +44,7 @@ struct Shared {
     on_focus: Option<Callback<Entry>>,
     /// Tells the fields of several forms in a page apart.
     number: usize,
+    named: &'static [&'static str],
 }
 
 impl Shared {
@@ -74,13 +75,16 @@ pub fn Form(
     /// Only these entries, by their paths; all of them without.
     #[prop(optional)]
     only: &'static [&'static str],
+    /// These numbers are chosen by their names only.
+    #[prop(optional)]
+    named: &'static [&'static str],
     /// The entries of these groups stand among the others.
     #[prop(optional)]
     flat: &'static [&'static str],
 ) -> impl IntoView {
     static FORMS: AtomicUsize = AtomicUsize::new(0);
     let number = FORMS.fetch_add(1, Ordering::Relaxed);
-    provide_context(Shared { entries, on_edit, on_focus, number });
+    provide_context(Shared { entries, on_edit, on_focus, number, named });
     let shown = Memo::new(move |_| {
         entries.with(|all| {
             let wanted = |entry: &&Entry| only.is_empty() || only.contains(&entry.path.as_str());
@@ -200,6 +204,7 @@ fn single(entry: Signal<Entry>, within_list: bool) -> impl IntoView {
     let (spec, path) = entry.with_untracked(|entry| (entry.spec, entry.path.clone()));
     let id = format!("form-{}-{path}", shared.number);
     let about = format!("{id}-about");
+    let by_name_only = shared.named.contains(&path.as_str());
     let path = StoredValue::new(path);
     let edit = Callback::new(move |edit: Edit| shared.on_edit.run((path.get_value(), edit)));
     let said = Memo::new(move |_| entry.with(|entry| shared.said(entry)));
@@ -210,6 +215,7 @@ fn single(entry: Signal<Entry>, within_list: bool) -> impl IntoView {
     };
     let control = match entry.with_untracked(|entry| entry.content.clone()) {
         Content::Choice { .. } if !spec.names.is_empty() => choice(entry, spec, id.clone(), edit).into_any(),
+        _ if by_name_only => choice(entry, spec, id.clone(), edit).into_any(),
         content => {
             let mono = !matches!(content, Content::Text { .. });
             let placeholder = move || entry.with(|entry| placeholder(&entry.content, spec));

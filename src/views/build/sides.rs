@@ -68,9 +68,9 @@ fn Actions(#[prop(into)] shown: Signal<Option<Shown>>, main: bool) -> impl IntoV
     view! {
         <CopyButton text=bytes_of(shown) label="Copy hex" class=if main { "main" } else { "" } />
         {copy_as}
-        <a class="button" href=read>
+        <a class="button" href=read aria-label="Open in Read">
             <Icon glyph=Glyph::Read />
-            "Open in Read"
+            "Read"
         </a>
     }
 }
@@ -145,7 +145,7 @@ pub fn ReplySide() -> impl IntoView {
                     </Show>
                 </header>
                 <Side shown lights=state.reply_lights>
-                    <Actions shown main=edited.get() />
+                    <Actions shown main=false />
                     <Show when=move || !edited.get()>
                         <button type="button" class="button" on:click=move |_| state.edit_reply()>
                             <Icon glyph=Glyph::Edit />

@@ -228,9 +228,9 @@ impl CheckState {
     }
 
     pub fn link(&self) -> Link {
-        let mut entries = vec![(CHECK.to_owned(), self.algorithm.with(|it| it.kind.to_owned()))];
-        entries.extend(self.ending.get().map(|ending| (ENDING.to_owned(), ending.key().to_owned())));
-        Link { text: self.text.get(), telegram: self.at.get(), entries, ..Link::default() }
+        let mut entries = vec![(CHECK.to_owned(), self.algorithm.with_untracked(|it| it.kind.to_owned()))];
+        entries.extend(self.ending.get_untracked().map(|ending| (ENDING.to_owned(), ending.key().to_owned())));
+        Link { text: self.text.get_untracked(), telegram: self.at.get_untracked(), entries, ..Link::default() }
     }
 
     pub fn follow(&self, link: Link) {

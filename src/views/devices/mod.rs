@@ -84,7 +84,7 @@ pub fn Borrowed() -> impl IntoView {
 fn Entries(only: &'static [&'static str]) -> impl IntoView {
     let state = expect_context::<DeviceSettings>();
     let on_edit = Callback::new(move |(path, edit): (String, Edit)| state.edit(&path, &edit));
-    view! { <Form entries=Signal::derive(move || state.entries()) on_edit only /> }
+    view! { <Form entries=Signal::derive(move || state.entries()) on_edit only named=&["dialect"] /> }
 }
 
 #[component]

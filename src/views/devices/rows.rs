@@ -262,7 +262,7 @@ fn Start(list: List) -> impl IntoView {
         misfits.into_iter().find(|misfit| misfit.path == path).map(|misfit| misfit.message.sentence() + ".")
     });
     view! {
-        <label class="start">
+        <label class="from">
             <span>"starts at"</span>
             <input
                 class="input mono"

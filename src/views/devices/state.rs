@@ -272,7 +272,7 @@ impl DeviceSettings {
     }
 
     pub fn link(&self) -> Link {
-        Link { options: Options { settings: self.settings(), ..Options::default() }, ..Link::default() }
+        Link { options: Options { settings: untrack(|| self.settings()), ..Options::default() }, ..Link::default() }
     }
 
     pub fn follow(&self, link: Link) {
