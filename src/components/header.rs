@@ -146,7 +146,7 @@ fn Keys() -> impl IntoView {
     view! {
         <button
             type="button"
-            class="button plain icon-only"
+            class="button plain icon-only keys-button"
             aria-label="Keyboard"
             on:click=move |_| open.set(true)
         >

@@ -46,7 +46,11 @@ pub fn Editor() -> impl IntoView {
     let rows = move || read.with_text(|text| text.split('\n').count().clamp(2, 200));
     let columns = move || read.with_text(|text| text.lines().map(str::len).max().unwrap_or_default().clamp(40, 120));
     view! {
-        <div class="editor" style:--columns=move || columns().to_string()>
+        <div
+            class="editor"
+            class:empty=move || read.report().telegrams.is_empty()
+            style:--columns=move || columns().to_string()
+        >
             <div class="written">
                 <div class="marks" aria-hidden="true" node_ref=marks>
                     <Marks />

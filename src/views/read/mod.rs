@@ -9,6 +9,7 @@ mod reading;
 mod start;
 mod state;
 mod telegrams;
+mod times;
 
 use leptos::ev;
 use leptos::prelude::*;
