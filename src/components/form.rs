@@ -75,7 +75,7 @@ pub fn Form(
     /// Only these entries, by their paths; all of them without.
     #[prop(optional)]
     only: &'static [&'static str],
-    /// These numbers are chosen by their names only.
+    /// These numbers are set by their names or switches only.
     #[prop(optional)]
     named: &'static [&'static str],
     /// The entries of these groups stand among the others.
@@ -215,6 +215,7 @@ fn single(entry: Signal<Entry>, within_list: bool) -> impl IntoView {
     };
     let control = match entry.with_untracked(|entry| entry.content.clone()) {
         Content::Choice { .. } if !spec.names.is_empty() => choice(entry, spec, id.clone(), edit).into_any(),
+        _ if by_name_only && !spec.bits.is_empty() => bits(entry, spec, edit).into_any(),
         _ if by_name_only => choice(entry, spec, id.clone(), edit).into_any(),
         content => {
             let mono = !matches!(content, Content::Text { .. });
@@ -245,10 +246,15 @@ fn single(entry: Signal<Entry>, within_list: bool) -> impl IntoView {
         }
     };
     let hint = move || entry.with(|entry| hint(entry, within_list));
-    let label = move || entry.with(|entry| entry.label().sentence());
+    let text = move || entry.with(|entry| entry.label().sentence());
+    // Switches have labels of their own.
+    let label = match by_name_only && !spec.bits.is_empty() {
+        true => view! { <span class="name">{text}</span> }.into_any(),
+        false => view! { <label for=id.clone()>{text}</label> }.into_any(),
+    };
     view! {
         <div class=format!("entry {}", role_class(spec.role)) on:focusin=focus>
-            <label for=id.clone()>{label}</label>
+            {label}
             {control}
             <p class="about" id=about>
                 <span class="misfit" aria-live="polite">{said}</span>

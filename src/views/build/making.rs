@@ -7,6 +7,7 @@ use super::state::BuildState;
 use crate::components::byte_strip::{Chosen, span_of};
 use crate::components::form::{Edit, Form};
 use crate::components::icon::{Glyph, Icon};
+use crate::components::roving;
 use buslens::field::{Direction, Message};
 use buslens::tool::{Content, Entries, Entry, PROFILES, PROTOCOLS, Profile, Protocol};
 
@@ -14,7 +15,19 @@ use buslens::tool::{Content, Entries, Entry, PROFILES, PROTOCOLS, Profile, Proto
 pub fn Making() -> impl IntoView {
     let state = expect_context::<BuildState>();
     let built = state.built();
-    let section = NodeRef::<html::Section>::new();
+    let form = NodeRef::<html::Div>::new();
+    // What was found is filled in next.
+    Effect::new(move |before: Option<usize>| {
+        let now = state.to_form.get();
+        if before.is_some_and(|before| before != now) {
+            request_animation_frame(move || {
+                if let Some(form) = form.get_untracked() {
+                    roving::focus(&form, "input, select", 0);
+                }
+            });
+        }
+        now
+    });
     let label = Memo::new(move |_| built.with(|built| built.label.clone()));
     let is_task = Memo::new(move |_| built.with(|built| built.is_task));
     let of_reply = Memo::new(move |_| built.with(|built| built.request.is_some()));
@@ -38,7 +51,7 @@ pub fn Making() -> impl IntoView {
     });
     let refused = Memo::new(move |_| built.with(|built| built.refused.as_ref().map(|it| it.sentence() + ".")));
     view! {
-        <section class="making" aria-label="Form" node_ref=section>
+        <section class="making" aria-label="Form">
             <header>
                 <h3>{label}</h3>
                 <Show when=move || is_task.get()>
@@ -57,10 +70,12 @@ pub fn Making() -> impl IntoView {
             <p class="misfit" role="status">{refused}</p>
             <Carrier />
             // Another telegram has another form.
-            {move || {
-                label.track();
-                view! { <Form entries on_edit on_focus flat=&["content"] /> }
-            }}
+            <div node_ref=form>
+                {move || {
+                    label.track();
+                    view! { <Form entries on_edit on_focus flat=&["content"] /> }
+                }}
+            </div>
         </section>
     }
 }

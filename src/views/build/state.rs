@@ -29,6 +29,8 @@ pub struct BuildState {
     built: RwSignal<Built>,
     /// Which of the replies is shown.
     pub reply: RwSignal<usize>,
+    /// Counts on when the focus is to go to the form: something was found.
+    pub to_form: RwSignal<usize>,
     pub request_lights: Lights,
     pub reply_lights: Lights,
     devices: DeviceSettings,
@@ -90,6 +92,7 @@ impl BuildState {
             device: RwSignal::new(None),
             built: RwSignal::new(built),
             reply: RwSignal::new(0),
+            to_form: RwSignal::new(0),
             request_lights: Lights::new(),
             reply_lights: Lights::new(),
             devices,
@@ -129,6 +132,7 @@ impl BuildState {
             self.device.set(found.device);
         }
         self.open(editor);
+        self.to_form.update(|count| *count += 1);
     }
 
     /// Builds for another device, or for any.
@@ -142,7 +146,14 @@ impl BuildState {
             Some(Found { device, offer })
         });
         match (task, same) {
-            (Some(_), Some(same)) => self.choose(&same),
+            (Some(_), Some(same)) => {
+                let settings = self.settings();
+                let unit = self.with_editor(Editor::unit).unwrap_or(1);
+                let wished = self.built.with_untracked(|built| built.protocol);
+                if let Some(editor) = same.editor(unit, wished, &settings) {
+                    self.open(editor);
+                }
+            }
             (Some(_), None) => self.open_all(),
             (None, _) => {
                 self.show(None);

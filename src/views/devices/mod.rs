@@ -39,7 +39,6 @@ pub fn Devices() -> impl IntoView {
     };
     view! {
         <div class="devices" on:keydown=keys>
-            <Borrowed />
             <div class="settings">
                 <header>
                     <h2>"How your devices are set up"</h2>
@@ -57,7 +56,7 @@ pub fn Devices() -> impl IntoView {
     }
 }
 
-/// Says that a link's settings count.
+/// Says in every view that a link's settings count.
 #[component]
 pub fn Borrowed() -> impl IntoView {
     let state = expect_context::<DeviceSettings>();
@@ -84,7 +83,7 @@ pub fn Borrowed() -> impl IntoView {
 fn Entries(only: &'static [&'static str]) -> impl IntoView {
     let state = expect_context::<DeviceSettings>();
     let on_edit = Callback::new(move |(path, edit): (String, Edit)| state.edit(&path, &edit));
-    view! { <Form entries=Signal::derive(move || state.entries()) on_edit only named=&["dialect"] /> }
+    view! { <Form entries=Signal::derive(move || state.entries()) on_edit only named=&["dialect", "profibus"] /> }
 }
 
 #[component]

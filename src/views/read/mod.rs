@@ -13,9 +13,8 @@ mod times;
 
 use leptos::ev;
 use leptos::prelude::*;
-use leptos::wasm_bindgen::JsCast;
-use web_sys::Element;
 
+use crate::browser::typing::is_typed_into;
 use crate::components::icon::{Glyph, Icon};
 use editor::Editor;
 use examples::Examples;
@@ -81,11 +80,4 @@ fn Input() -> impl IntoView {
             </div>
         </section>
     }
-}
-
-/// Whether text is typed into the element of an event.
-fn is_typed_into(target: Option<web_sys::EventTarget>) -> bool {
-    let element = target.and_then(|target| target.dyn_into::<Element>().ok());
-    let field = "textarea, input:not([type=checkbox], [type=radio], [type=range], [type=file])";
-    element.is_some_and(|element| element.closest(field).ok().flatten().is_some())
 }

@@ -80,18 +80,6 @@ pub fn ReadingChoices() -> impl IntoView {
     let directions = || {
         vec![(Direction::Request.key(), "All are requests"), (Direction::Response.key(), "All are responses")]
     };
-    let linked = move || {
-        read.settings_are_linked().then(|| {
-            view! {
-                <span class="linked">
-                    "Devices as set up in the link. "
-                    <button type="button" class="link" on:click=move |_| read.use_own_settings()>
-                        "Use mine"
-                    </button>
-                </span>
-            }
-        })
-    };
     view! {
         <div class="reading-choices">
             <Choose
@@ -117,7 +105,6 @@ pub fn ReadingChoices() -> impl IntoView {
                     on_choose=Callback::new(move |key| read.read_as(|choices| choices.direction = key))
                 />
             </Show>
-            {linked}
         </div>
     }
 }

@@ -20,9 +20,9 @@ use crate::views::devices::DeviceSettings;
 use crate::worker::client::SMALL;
 use crate::worker::messages::{How, Marked, Part};
 use buslens::field::{Direction, Span, count};
-use buslens::tool::link::{Link, keep_settings};
+use buslens::tool::link::Link;
 use buslens::tool::log::{Reading, State};
-use buslens::tool::{Options, Profile, Protocol, Report, Settings, decode, decode_file};
+use buslens::tool::{Options, Profile, Protocol, Report, decode, decode_file};
 
 /// So many telegrams are looked at one by one; more are a log.
 const FEW: usize = 8;
@@ -51,8 +51,6 @@ pub struct ReadState {
     /// A file that was open at the last visit and that this browser has not kept.
     pub missing: RwSignal<Option<String>>,
     choices: RwSignal<Choices>,
-    /// How devices are set up by the link that was followed, where it says so.
-    linked: RwSignal<Option<Kept>>,
     report: Memo<Shared>,
     mode: Memo<Mode>,
     index: RwSignal<usize>,
@@ -84,16 +82,6 @@ pub struct Opened {
     pub blob: Blob,
 }
 
-/// Settings, compared by what links keep of them.
-#[derive(Clone)]
-struct Kept(Settings);
-
-impl PartialEq for Kept {
-    fn eq(&self, other: &Self) -> bool {
-        keep_settings(&self.0) == keep_settings(&other.0)
-    }
-}
-
 /// A report, which each reading makes anew.
 #[derive(Clone)]
 struct Shared(Arc<Report>);
@@ -118,8 +106,7 @@ impl ReadState {
         let text = RwSignal::new(String::new());
         let file = RwSignal::new_local(None::<Opened>);
         let choices = RwSignal::new(Choices::default());
-        let linked = RwSignal::new(None::<Kept>);
-        let options = move || options(&choices.read(), linked.get(), devices);
+        let options = move || options(&choices.read(), devices);
         let report = Memo::new(move |_| Shared(Arc::new(text.with(|text| read(text, options())))));
         let mode = Memo::new(move |_| {
             let has_file = file.with(Option::is_some);
@@ -154,7 +141,6 @@ impl ReadState {
             file,
             missing: RwSignal::default(),
             choices,
-            linked,
             report,
             mode,
             index,
@@ -252,7 +238,7 @@ impl ReadState {
 
     /// How telegrams are read, with how the devices are set up.
     pub fn options(&self) -> Options {
-        options(&self.choices.read(), self.linked.get(), self.devices)
+        options(&self.choices.read(), self.devices)
     }
 
     fn how(&self) -> How {
@@ -263,17 +249,6 @@ impl ReadState {
             marks: choices.marks,
             ..How::of(&self.options())
         }
-    }
-
-    /// Whether devices are set up as a link says, and not as the person's own are.
-    pub fn settings_are_linked(&self) -> bool {
-        self.linked.with(Option::is_some)
-    }
-
-    /// The devices are set up as the person's own are.
-    pub fn use_own_settings(&self) {
-        self.linked.set(None);
-        self.address.chosen();
     }
 
     /// The input was edited; the telegram at the cursor is shown.
@@ -460,11 +435,7 @@ impl ReadState {
 
     pub fn follow(&self, link: Link) {
         let Link { text, options, telegram, entries, .. } = link;
-        let own = untrack(|| self.devices.settings());
-        let linked = Some(Kept(options.settings)).filter(|kept| {
-            !keep_settings(&kept.0).is_empty() && *kept != Kept(own)
-        });
-        self.linked.set(linked);
+        self.devices.bring(&options.settings);
         self.choices.set(Choices {
             protocol: options.protocol.map_or(String::new(), |it| it.key.to_owned()),
             device: options.device.map_or(String::new(), |it| it.key.to_owned()),
@@ -499,12 +470,12 @@ fn read(text: &str, options: Options) -> Report {
     decode_file(text.as_bytes(), &Reading::default(), options.clone()).unwrap_or_else(|_| decode(text, options))
 }
 
-fn options(choices: &Choices, linked: Option<Kept>, devices: DeviceSettings) -> Options {
+fn options(choices: &Choices, devices: DeviceSettings) -> Options {
     Options {
         protocol: Protocol::of(&choices.protocol),
         device: Profile::of(&choices.device),
         direction: Direction::of(&choices.direction),
-        settings: linked.map_or_else(|| devices.settings(), |kept| kept.0),
+        settings: devices.settings(),
     }
 }
 
