@@ -12,6 +12,7 @@ use web_sys::js_sys::{decode_uri_component, encode_uri_component};
 use crate::browser::compression::{self, Refusal};
 use crate::browser::storage;
 use buslens::tool::link::Link;
+use buslens::tool::{Options, Settings};
 
 /// Longer ones are compressed.
 const LONGEST_PLAIN: usize = 400;
@@ -121,6 +122,11 @@ impl Address {
         self.view.get()
     }
 
+    /// The same, for handlers.
+    pub fn view_now(&self) -> View {
+        self.view.get_untracked()
+    }
+
     /// Somebody typed: the address follows at the next pause, and "back" leads to before the typing.
     pub fn typed(&self) {
         self.renew(Step::Typed);
@@ -226,8 +232,12 @@ impl Address {
     async fn write(self) {
         let Some(shows) = self.shows() else { return };
         let view = self.view.get_untracked();
-        let content = written(&shows.link(view));
-        let kept = if content.len() > LONGEST_KEPT { "" } else { &content };
+        let link = shows.link(view);
+        let content = written(&link);
+        // How devices are set up is kept by itself, and may be changed before the next visit.
+        let options = Options { settings: Settings::default(), ..link.options };
+        let kept = written(&Link { options, ..link });
+        let kept = if kept.len() > LONGEST_KEPT { "" } else { &kept };
         // A full or forbidden store only means that it is gone at the next visit; Devices, whose settings
         // must not get lost, says so.
         let _ = storage::keep(view.key(), kept);

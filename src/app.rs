@@ -6,11 +6,12 @@ use leptos::ev::{DragEvent, MouseEvent};
 use leptos::prelude::*;
 
 use crate::address::{Address, Shows, View};
+use crate::browser::typing::is_typed_into;
 use crate::components::header::Header;
 use crate::components::toast::{ToastList, Toasts};
 use crate::views::build::{Build, BuildState};
 use crate::views::check::{Check, CheckState};
-use crate::views::devices::{DeviceSettings, Devices};
+use crate::views::devices::{Borrowed, DeviceSettings, Devices};
 use crate::views::read::{Read, ReadState};
 use crate::views::sheet::{Sheet, SheetState};
 use buslens::tool::link::Link;
@@ -42,11 +43,28 @@ pub fn App() -> impl IntoView {
         }
     };
     let dropped = move |event: DragEvent| {
-        let files = event.data_transfer().and_then(|data| data.files());
-        let Some(file) = files.and_then(|files| files.get(0)) else { return };
+        let Some(data) = event.data_transfer() else { return };
+        let Some(file) = data.files().and_then(|files| files.get(0)) else {
+            // Text that is moved within a field is the browser's to move.
+            let text = data.get_data("text").unwrap_or_default();
+            if !text.is_empty() && !is_typed_into(event.target()) {
+                event.prevent_default();
+                read.load(text);
+            }
+            return;
+        };
         event.prevent_default();
+        let folder = data.items().get(0).and_then(|item| item.webkit_get_as_entry().ok().flatten());
+        if folder.is_some_and(|entry| entry.is_directory()) {
+            return toasts.say(format!("{} is a folder: open a file in it.", file.name()));
+        }
+        if address.view_now() == View::Devices {
+            return devices.open(file);
+        }
         read.open(file);
-        address.go_to(View::Read);
+        if address.view_now() != View::Read {
+            address.go_to(View::Read);
+        }
     };
     let view = move || match address.view() {
         View::Read => view! { <Read /> }.into_any(),
@@ -61,6 +79,7 @@ pub fn App() -> impl IntoView {
                 "Skip to the content"
             </a>
             <Header />
+            <Borrowed />
             <main tabindex="-1" node_ref=main>
                 {view}
             </main>

@@ -6,3 +6,4 @@ pub mod file;
 pub mod kept_file;
 pub mod panic;
 pub mod storage;
+pub mod typing;

@@ -13,6 +13,7 @@ use super::menu::{Menu, MenuItem};
 use super::toast::Toasts;
 use crate::address::{Address, View};
 use crate::browser::storage;
+use crate::browser::typing::is_typed_into;
 
 /// Where the theme is kept. The boot script reads it, too, so that the page comes up in the right colours.
 const THEME: &str = "theme";
@@ -123,10 +124,7 @@ const KEYS: [(&str, &str); 9] = [
 fn Keys() -> impl IntoView {
     let open = RwSignal::new(false);
     let pressed = window_event_listener(ev::keydown, move |event: KeyboardEvent| {
-        let typing = event.target().and_then(|target| target.dyn_into::<HtmlElement>().ok()).is_some_and(|it| {
-            it.matches("textarea, select, input:not([type=checkbox], [type=radio], [type=range])").unwrap_or(false)
-        });
-        if typing || event.ctrl_key() || event.meta_key() || event.alt_key() {
+        if is_typed_into(event.target()) || event.ctrl_key() || event.meta_key() || event.alt_key() {
             return;
         }
         match event.key().as_str() {

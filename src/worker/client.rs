@@ -131,7 +131,7 @@ impl Client {
         match (&mut *self.here.borrow_mut(), &request) {
             (Some(reader), Request::Export { kind, notes }) => {
                 let parts = Array::new();
-                reader.export(*kind, notes, &mut |text| drop(parts.push(&text.into())));
+                reader.export(*kind, notes, &mut |text| _ = parts.push(&text.into()));
                 let bag = BlobPropertyBag::new();
                 bag.set_type(kind.file().1);
                 exported = Blob::new_with_str_sequence_and_options(&parts, &bag).ok();

@@ -105,7 +105,7 @@ fn hear(request: Request, beside: JsValue) {
         Request::Export { kind, notes } => DESK.with_borrow(|desk| {
             let Some(reader) = &desk.reader else { return };
             let parts = Array::new();
-            reader.export(kind, &notes, &mut |text| drop(parts.push(&text.into())));
+            reader.export(kind, &notes, &mut |text| _ = parts.push(&text.into()));
             let bag = BlobPropertyBag::new();
             bag.set_type(kind.file().1);
             if let Ok(blob) = Blob::new_with_str_sequence_and_options(&parts, &bag) {

@@ -16,7 +16,7 @@ const STEPS: &[Step] = &[
     ("documentation", documentation),
     ("the page", page),
     ("size of the page", || size::check(Path::new(build::DIST))),
-    ("the page in a browser", page_tests::run),
+    ("the page in a browser", || page_tests::run(&[])),
 ];
 
 pub fn run() -> Result {

@@ -25,6 +25,7 @@ Usage: cargo xtask <command>
                      with --dev in a fraction of the time, and not optimized
   serve [--port N]   builds with --dev, serves dist/ on this machine and rebuilds after each change
   test               runs every check, from the formatting to the page in a browser
+  test page [NAME]   only tests dist/ as it is in a browser, or those tests that are called so
   --help             this text";
 
 fn main() -> ExitCode {
@@ -39,6 +40,7 @@ fn main() -> ExitCode {
         ["build", "--dev"] => |_| build::run(Build::Dev),
         ["serve"] | ["serve", "--port", _] => watch::serve,
         ["test"] => |_| check::run(),
+        ["test", "page", ..] => return finish(go_to_root().and_then(|()| page_tests::run(&words[2..]))),
         // Started by `test` itself, see page_tests.rs.
         [page_tests::KEEP_DRIVER, driver] => return page_tests::keep_driver(driver),
         [command @ ("build" | "serve" | "test"), ..] => {
@@ -50,7 +52,11 @@ fn main() -> ExitCode {
         return refuse(&format!("`{}` is not a port: 1 to 65535.", words[2]));
     };
 
-    match go_to_root().and_then(|()| work(port.get())) {
+    finish(go_to_root().and_then(|()| work(port.get())))
+}
+
+fn finish(done: Result) -> ExitCode {
+    match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(sentence) => {
             eprintln!("\n{sentence}");
