@@ -98,9 +98,9 @@ pub fn Form(
     view! { <div class="form">{level(shown.into(), false)}</div> }
 }
 
-/// What an entry is told apart by while it is edited.
-fn key(entry: &Entry) -> (String, Discriminant<Content>) {
-    (entry.path.clone(), discriminant(&entry.content))
+/// What an entry is told apart by while it is edited. Another function has other fields at the same paths.
+fn key(entry: &Entry) -> (String, Discriminant<Content>, usize) {
+    (entry.path.clone(), discriminant(&entry.content), std::ptr::from_ref(entry.spec).addr())
 }
 
 /// The entries of a form, a group or an item of a list. `within_list`: what holds for each item is not

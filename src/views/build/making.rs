@@ -67,14 +67,10 @@ pub fn Making() -> impl IntoView {
                     </button>
                 </Show>
             </header>
-            <p class="misfit" role="status">{refused}</p>
+            <p class="misfit">{refused}</p>
             <Carrier />
-            // Another telegram has another form.
             <div node_ref=form>
-                {move || {
-                    label.track();
-                    view! { <Form entries on_edit on_focus flat=&["content"] /> }
-                }}
+                <Form entries on_edit on_focus flat=&["content"] />
             </div>
         </section>
     }

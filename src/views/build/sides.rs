@@ -28,7 +28,7 @@ fn Side(#[prop(into)] shown: Signal<Option<Shown>>, lights: Lights, children: Ch
     let said = move || shown.with(|shown| shown.as_ref().map(|it| it.detail.meaning().sentence() + "."));
     let problems = move || shown.get().map(|shown| view! { <Problems shown lights /> });
     view! {
-        <h3 class="said" aria-live="polite">{said}</h3>
+        <h3 class="said">{said}</h3>
         <ByteStrip blocks lights size="small" />
         <div class="actions">{children()}</div>
         {problems}

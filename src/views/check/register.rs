@@ -36,7 +36,8 @@ pub fn Registers() -> impl IntoView {
     view! {
         <div class="step">
             <p class="note number">{place}</p>
-            <h3 aria-live="polite">{said}</h3>
+            // Nobody can listen as quickly as it plays.
+            <h3 aria-live=move || if state.playing.get() { "off" } else { "polite" }>{said}</h3>
         </div>
         <table class="registers" aria-label="Registers, bit by bit">
             <tbody>{move || rows.get().into_iter().map(|row| bits(row, width.get())).collect_view()}</tbody>

@@ -16,15 +16,16 @@ use leptos::prelude::*;
 
 use crate::browser::typing::is_typed_into;
 use crate::components::icon::{Glyph, Icon};
+use crate::views::later::LaterView;
 use editor::Editor;
 use examples::Examples;
-use log_view::LogView;
 use open_file::OpenFile;
 use reading::{ReadAs, ReadingChoices};
 use start::Start;
 use state::Mode;
 use telegrams::Telegrams;
 
+pub use log_view::LogView;
 pub use state::ReadState;
 
 #[component]
@@ -43,7 +44,7 @@ pub fn Read() -> impl IntoView {
     let below = move || match read.mode() {
         Mode::Start => view! { <Start /> }.into_any(),
         Mode::Telegrams => view! { <Telegrams /> }.into_any(),
-        Mode::Log => view! { <LogView /> }.into_any(),
+        Mode::Log => view! { <LaterView which=|later| later.log /> }.into_any(),
     };
     view! {
         <Show when=move || has_editor.get()>
