@@ -249,7 +249,7 @@ impl BuildState {
                 Some(bytes) => read(asked.as_deref(), bytes),
                 None => before,
             };
-            let replies = editor.replies(&settings).into_iter();
+            let replies = editor.replies(device, &settings).into_iter();
             let replies = replies.map(|(label, bytes)| Reply { label: label.sentence(), bytes });
             Built {
                 label: editor.label().sentence(),

@@ -212,6 +212,13 @@ impl Profile {
         self.parameters.iter().copied().flatten()
     }
 
+    /// Whether an exception code is the device's: those of the standard are everybody's, KEB's own come from
+    /// KEB's devices, which have functions of their own, too.
+    pub fn can_refuse_with(&self, code: u8) -> bool {
+        const OF_THE_STANDARD: u8 = 63;
+        code <= OF_THE_STANDARD || self.functions.iter().any(|function| *function > OF_THE_STANDARD)
+    }
+
     /// An address as the manual writes it.
     pub fn address(&self, address: u16) -> String {
         address_text(address, self.hex_addresses)

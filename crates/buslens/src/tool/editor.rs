@@ -3,7 +3,7 @@
 use super::build::{build, does_not_carry, slot};
 use super::link::Link;
 use super::{Change, Entries, Offer, Options, Settings, decode, offers, replies};
-use crate::device::{Draft, Task};
+use crate::device::{Draft, Profile, Task};
 use crate::field::{Argument, Direction, Message, Role, Spec, hex, problems};
 use crate::frame::{self, Cargo, Frame, PROTOCOLS, Protocol};
 use crate::message;
@@ -250,8 +250,8 @@ impl Editor {
         }
     }
 
-    /// What can come back, as bytes with their names; nothing for a response.
-    pub fn replies(&mut self, settings: &Settings) -> Vec<(Message, Vec<u8>)> {
+    /// What can come back from a device, as bytes with their names; nothing for a response.
+    pub fn replies(&mut self, device: Option<&Profile>, settings: &Settings) -> Vec<(Message, Vec<u8>)> {
         let profibus = &settings.frame.profibus;
         let replies = match &mut self.subject {
             Subject::Telegram(frame) => replies(frame.as_mut(), profibus),
@@ -261,7 +261,12 @@ impl Editor {
             },
         };
         let bytes = |frame: &mut dyn Frame| walk::write(frame, &Deviations::default());
-        replies.into_iter().map(|mut reply| (reply.label, bytes(reply.frame.as_mut()))).collect()
+        let replies = replies.into_iter().filter_map(|mut reply| {
+            let exception = reply.frame.pdu().and_then(|pdu| pdu.body.exception());
+            let fits = exception.is_none_or(|code| device.is_none_or(|device| device.can_refuse_with(code)));
+            fits.then(|| (reply.label, bytes(reply.frame.as_mut())))
+        });
+        replies.collect()
     }
 
     /// Changes the entry at `path`.
@@ -286,7 +291,7 @@ impl Telegram for Asking {
     }
 }
 
-static UNIT: Spec = Spec::new("unit", "Unit or station").role(Role::Address).note("Whom the request is for.");
+static UNIT: Spec = Spec::new("unit", "Unit address").role(Role::Address).note("Address of the device.");
 
 #[cfg(test)]
 mod tests {
@@ -362,6 +367,16 @@ mod tests {
         let channel = PROTOCOLS.iter().find(|protocol| protocol.key == "profibus-fdl").unwrap();
         assert!(editor.carry_by(channel, &Settings::default()).is_err());
         assert_eq!(editor.protocol.key, "modbus-tcp");
+    }
+
+    #[test]
+    fn devices_refuse_with_their_own_exceptions_only() {
+        let count = |device: &str| {
+            let mut editor = editor(&[0x01, 0x03, 0x00, 0xC8, 0x00, 0x03, 0x84, 0x35]);
+            editor.replies(crate::device::Profile::of(device), &Settings::default()).len()
+        };
+        assert_eq!(count(""), count("keb-f5-modbus"));
+        assert_eq!(count("") - count("memograph-rsg45"), 4, "64 to 67 are KEB's");
     }
 
     /// A link brings back what was typed, right or wrong, and a telegram with its faults.
