@@ -61,6 +61,14 @@ impl View {
         }
     }
 
+    /// The view whose content it shows.
+    fn content(self) -> Self {
+        match self {
+            Self::Sheet => Self::Read,
+            view => view,
+        }
+    }
+
     fn of(key: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|view| view.key() == key)
     }
@@ -183,15 +191,15 @@ impl Address {
             keeper.waiting = None;
             keeper.step = Step::Typed;
             keeper.written.clone_from(&fragment);
-            let first = !keeper.visited.contains(&view);
+            let first = !keeper.visited.contains(&view.content());
             if first {
-                keeper.visited.push(view);
+                keeper.visited.push(view.content());
             }
             first
         });
         if content.is_empty() {
             if first == Some(true) {
-                let kept = storage::kept(view.key()).unwrap_or_default();
+                let kept = storage::kept(view.content().key()).unwrap_or_default();
                 shows.follow(view, read(&kept));
             }
             self.view.set(view);
@@ -240,7 +248,7 @@ impl Address {
         let kept = if kept.len() > LONGEST_KEPT { "" } else { &kept };
         // A full or forbidden store only means that it is gone at the next visit; Devices, whose settings
         // must not get lost, says so.
-        let _ = storage::keep(view.key(), kept);
+        let _ = storage::keep(view.content().key(), kept);
         let content = packed(content).await.unwrap_or_default();
         let fragment = match content.is_empty() {
             true => format!("/{}", view.key()),

@@ -1,6 +1,7 @@
 //! The app: the views by address, and what outlasts them.
 
 use std::rc::Rc;
+use std::time::Duration;
 
 use leptos::ev::{DragEvent, MouseEvent};
 use leptos::prelude::*;
@@ -9,11 +10,12 @@ use crate::address::{Address, Shows, View};
 use crate::browser::typing::is_typed_into;
 use crate::components::header::Header;
 use crate::components::toast::{ToastList, Toasts};
-use crate::views::build::{Build, BuildState};
-use crate::views::check::{Check, CheckState};
-use crate::views::devices::{Borrowed, DeviceSettings, Devices};
+use crate::views::build::BuildState;
+use crate::views::check::CheckState;
+use crate::views::devices::{Borrowed, DeviceSettings};
+use crate::views::later::{LaterView, LaterViews};
 use crate::views::read::{Read, ReadState};
-use crate::views::sheet::{Sheet, SheetState};
+use crate::views::sheet::SheetState;
 use buslens::tool::link::Link;
 
 #[component]
@@ -31,6 +33,10 @@ pub fn App() -> impl IntoView {
     provide_context(build);
     provide_context(check);
     provide_context(SheetState::new());
+    let later = LaterViews::new();
+    provide_context(later);
+    // Whoever looks at what there is has time for the rest to come.
+    set_timeout(move || later.load(), Duration::from_millis(1500));
     address.keep(Rc::new(States { read, build, check, devices, toasts }));
 
     Effect::new(move |_| document().set_title(&format!("{} - Buslens", address.view().label())));
@@ -68,10 +74,10 @@ pub fn App() -> impl IntoView {
     };
     let view = move || match address.view() {
         View::Read => view! { <Read /> }.into_any(),
-        View::Build => view! { <Build /> }.into_any(),
-        View::Check => view! { <Check /> }.into_any(),
-        View::Devices => view! { <Devices /> }.into_any(),
-        View::Sheet => view! { <Sheet /> }.into_any(),
+        View::Build => view! { <LaterView which=|later| later.build /> }.into_any(),
+        View::Check => view! { <LaterView which=|later| later.check /> }.into_any(),
+        View::Devices => view! { <LaterView which=|later| later.devices /> }.into_any(),
+        View::Sheet => view! { <LaterView which=|later| later.sheet /> }.into_any(),
     };
     view! {
         <div class="app" on:dragover=|event| event.prevent_default() on:drop=dropped>
@@ -80,7 +86,7 @@ pub fn App() -> impl IntoView {
             </a>
             <Header />
             <Borrowed />
-            <main tabindex="-1" node_ref=main>
+            <main id="main" tabindex="-1" node_ref=main>
                 {view}
             </main>
             <ToastList />

