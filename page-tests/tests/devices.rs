@@ -121,6 +121,7 @@ async fn settings_are_saved_and_opened_as_a_file() -> Result {
     let page = Page::open_at("#/devices", PHONE, true).await?;
     set_up(&page).await?;
     page.picture("devices-phone-dark").await?;
+    page.driver.execute("document.querySelector('.changes details').scrollIntoView()", vec![]).await?;
     let file = page.saved(".changes .actions:nth-of-type(2) .button:first-child").await?;
     let text = std::fs::read_to_string(&file)?;
     assert_eq!(text, "read_mapping.entries = 1\nread_mapping.entries.0.entry = 00330101h\nprofibus = 01h\noutputs = 2\n");

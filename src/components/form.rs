@@ -3,6 +3,7 @@
 use std::mem::{Discriminant, discriminant};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use leptos::context::Provider;
 use leptos::prelude::*;
 
 use super::byte_strip::role_class;
@@ -84,7 +85,6 @@ pub fn Form(
 ) -> impl IntoView {
     static FORMS: AtomicUsize = AtomicUsize::new(0);
     let number = FORMS.fetch_add(1, Ordering::Relaxed);
-    provide_context(Shared { entries, on_edit, on_focus, number, named });
     let shown = Memo::new(move |_| {
         entries.with(|all| {
             let wanted = |entry: &&Entry| only.is_empty() || only.contains(&entry.path.as_str());
@@ -95,7 +95,12 @@ pub fn Form(
             shown.collect::<Vec<_>>()
         })
     });
-    view! { <div class="form">{level(shown.into(), false)}</div> }
+    view! {
+        // Each form of the page has a context of its own.
+        <Provider value=Shared { entries, on_edit, on_focus, number, named }>
+            <div class="form">{level(shown.into(), false)}</div>
+        </Provider>
+    }
 }
 
 /// What an entry is told apart by while it is edited. Another function has other fields at the same paths.

@@ -1,5 +1,6 @@
 //! A button that opens a list of things to do.
 
+use leptos::context::Provider;
 use leptos::ev::{FocusEvent, KeyboardEvent, MouseEvent};
 use leptos::html;
 use leptos::prelude::*;
@@ -27,7 +28,6 @@ pub fn Menu(
     children: ChildrenFn,
 ) -> impl IntoView {
     let open = RwSignal::new(false);
-    provide_context(Opened(open));
     let root = NodeRef::<html::Div>::new();
     let button = NodeRef::<html::Button>::new();
     let list = NodeRef::<html::Div>::new();
@@ -68,6 +68,10 @@ pub fn Menu(
         }
     };
     let left = move |event: FocusEvent| {
+        // A menu that is taken away with the focus in it loses that last.
+        if open.is_disposed() {
+            return;
+        }
         let to = event.related_target().and_then(|to| to.dyn_into::<web_sys::Node>().ok());
         let stays = root.get_untracked().is_some_and(|root| root.contains(to.as_ref()));
         if !stays {
@@ -96,11 +100,14 @@ pub fn Menu(
                 <span class:unseen=icon_only>{label}</span>
                 {(!icon_only).then(|| view! { <Icon glyph=Glyph::ChevronDown /> })}
             </button>
-            <Show when=move || open.get()>
-                <div node_ref=list role="menu" aria-label=move || label.get()>
-                    {children()}
-                </div>
-            </Show>
+            // Each menu of the page has a context of its own.
+            <Provider value=Opened(open)>
+                <Show when=move || open.get()>
+                    <div node_ref=list role="menu" aria-label=move || label.get()>
+                        {children()}
+                    </div>
+                </Show>
+            </Provider>
         </div>
     }
 }

@@ -89,6 +89,9 @@ pub fn RequestSide() -> impl IntoView {
                     <span aria-hidden="true">"→"</span>
                     <b>"Request"</b>
                     <span>{length(shown)}</span>
+                    <Show when=stale>
+                        <span class="state warn">"last valid"</span>
+                    </Show>
                 </header>
                 <Side shown lights=state.request_lights>
                     <Actions shown main=true />
@@ -134,6 +137,9 @@ pub fn ReplySide() -> impl IntoView {
                     <span aria-hidden="true">"←"</span>
                     <b>"Reply"</b>
                     <span>{length(shown)}</span>
+                    <Show when=stale>
+                        <span class="state warn">"last valid"</span>
+                    </Show>
                     <Show when=move || !edited.get() && !exceptions.with(Vec::is_empty)>
                         <Segments
                             label="Which reply"
@@ -186,6 +192,9 @@ pub fn Dock() -> impl IntoView {
             <p>
                 <b>{name}</b>
                 <span>{length(shown)}</span>
+                <Show when=move || built.with(Built::is_stale)>
+                    <span class="state warn">"last valid"</span>
+                </Show>
                 <CopyButton text=bytes_of(shown) label="Copy hex" class="main low" />
             </p>
             {move || {
