@@ -317,7 +317,7 @@ fn hint(entry: &Entry, within_list: bool) -> String {
     }
     let note = match &entry.content {
         Content::Computed { .. } if spec.role == Role::Check => "Type its bytes here to break it on purpose.",
-        Content::Computed { .. } => "Follows from the others. Type a number here to break it on purpose.",
+        Content::Computed { .. } => "Type a number here to break it on purpose.",
         Content::Choice { chosen, .. } => chosen.note,
         _ => spec.note,
     };

@@ -9,7 +9,7 @@ use crate::components::form::{Edit, Form};
 use crate::components::icon::{Glyph, Icon};
 use crate::components::roving;
 use buslens::field::{Direction, Message};
-use buslens::tool::{Content, Entries, Entry, PROFILES, PROTOCOLS, Profile, Protocol};
+use buslens::tool::{Content, Entries, Entry, Misfit, PROFILES, PROTOCOLS, Profile, Protocol};
 
 #[component]
 pub fn Making() -> impl IntoView {
@@ -40,16 +40,24 @@ pub fn Making() -> impl IntoView {
         let lights = if direction == Direction::Request { state.request_lights } else { state.reply_lights };
         lights.chosen.set(span.map(|span| Chosen { span, at: span.from }));
     });
+    // What is refused is said at the entry that it is about, or else above all of them.
     let entries = Signal::derive(move || {
         built.with(|built| {
             let mut entries = built.entries.clone();
-            if let Some(message) = &built.refused {
-                refuse_at_its_field(&mut entries, message);
+            if let Some(message) = &built.refused
+                && let Some(path) = concerned(&entries, message)
+            {
+                entries.misfits.push(Misfit { path, message: message.clone() });
             }
             entries
         })
     });
-    let refused = Memo::new(move |_| built.with(|built| built.refused.as_ref().map(|it| it.sentence() + ".")));
+    let refused = Memo::new(move |_| {
+        built.with(|built| {
+            let message = built.refused.as_ref()?;
+            concerned(&built.entries, message).is_none().then(|| message.sentence() + ".")
+        })
+    });
     view! {
         <section class="making" aria-label="Form">
             <header>
@@ -76,8 +84,8 @@ pub fn Making() -> impl IntoView {
     }
 }
 
-/// Says why there is no telegram at the entry that the message is about, too.
-fn refuse_at_its_field(entries: &mut Entries, message: &Message) {
+/// The path of the entry that a message is about: it names the entry among its arguments, or misses a text.
+fn concerned(entries: &Entries, message: &Message) -> Option<String> {
     let named = |name: &str| message.arguments.iter().any(|(argument, _)| *argument == name);
     let mut path = None;
     entries.form.visit(&mut |entry| {
@@ -86,9 +94,7 @@ fn refuse_at_its_field(entries: &mut Entries, message: &Message) {
             path = Some(entry.path.clone());
         }
     });
-    if let Some(path) = path {
-        entries.misfits.push(buslens::tool::Misfit { path, message: message.clone() });
-    }
+    path
 }
 
 /// Whose words count, and what carries the telegram.

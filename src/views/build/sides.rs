@@ -82,7 +82,13 @@ pub fn RequestSide() -> impl IntoView {
     let built = state.built();
     let stale = move || built.with(|built| built.direction == Direction::Request && built.is_stale());
     let editable = move || built.with(|built| built.request.is_some());
+    let nothing = move || shown.with(Option::is_none) && built.with(|built| built.telegram.is_none());
     view! {
+        <Show when=nothing>
+            <section class="side" aria-label="Request">
+                <p class="note">"No telegram yet: the form says what is missing."</p>
+            </section>
+        </Show>
         <Show when=move || shown.with(Option::is_some)>
             <section class="side" class:stale=stale aria-label="Request">
                 <header>

@@ -138,7 +138,7 @@ impl DeviceSettings {
         self.toasts.offer(
             "All devices are at factory settings.",
             "Undo",
-            Callback::new(move |()| state.undo()),
+            move || state.undo(),
         );
     }
 
@@ -263,7 +263,7 @@ impl DeviceSettings {
                     state.toasts.offer(
                         format!("{name} is opened: the devices are set up by it.{kept}"),
                         "Undo",
-                        Callback::new(move |()| state.undo()),
+                        move || state.undo(),
                     );
                 }
                 Err(why) => state.toasts.say(format!("{why} Nothing is changed.")),

@@ -253,7 +253,7 @@ mod tests {
         let text = "ä𝄞x";
         assert_eq!([0, 1, 3, 4, 9].map(|at| byte_offset(text, at)), [0, 2, 6, 7, 7]);
         assert_eq!(utf16_offset(text, 6), 3);
-        assert_eq!(place("ab\ncä", 5), (2, 2));
+        assert_eq!(place("ab\ncä", 4), (2, 2));
     }
 
     #[test]

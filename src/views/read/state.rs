@@ -329,12 +329,12 @@ impl ReadState {
             return;
         }
         let (index, choices) = (self.index.get_untracked(), self.choices.get_untracked());
-        let undo = Callback::new(move |()| {
+        let undo = move || {
             state.put(text.clone());
             state.choices.set(choices.clone());
             state.index.set(index);
             state.address.chosen();
-        });
+        };
         self.toasts.offer("What was typed before is replaced.", "Undo", undo);
     }
 

@@ -115,7 +115,7 @@ fn table(report: &Report) -> impl IntoView + use<> {
     let more = report.telegrams.len().saturating_sub(MOST_ROWS);
     let rows: Vec<_> = (0..report.telegrams.len().min(MOST_ROWS)).filter_map(row).collect();
     view! {
-        <table class="table list" aria-label="All telegrams">
+        <table class="table overview" aria-label="All telegrams">
             <thead>
                 <tr>
                     <th scope="col">"No."</th>

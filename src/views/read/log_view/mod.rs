@@ -120,7 +120,7 @@ fn Progress() -> impl IntoView {
             Some(
                 view! {
                     <div class="reading-on">
-                        <progress max=of.max(1.0).to_string() prop:value=done aria-label="Read"></progress>
+                        <progress max=of.max(1.0).to_string() value=done.to_string() aria-label="Read"></progress>
                         <span class="number">
                             {format!("{percent:.0} %, {}{left}", many(telegrams, "telegram"))}
                         </span>
