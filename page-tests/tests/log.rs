@@ -64,7 +64,7 @@ fn file(folder: &Path, name: &str, content: &[u8]) -> String {
 async fn open(page: &Page, path: &str) -> Result<Duration> {
     let start = Instant::now();
     page.open_file(path).await?;
-    page.wait_for(".story h2, [role=alert], [role=status]:not(:empty)").await?;
+    page.wait_for(".story h2, [role=alert]").await?;
     Ok(start.elapsed())
 }
 
@@ -83,7 +83,7 @@ async fn a_log_is_read_summed_up_and_looked_through() -> Result {
             assert_eq!(page.text(".file-bar strong").await?, "bus.log");
             assert!(page.text(".file-bar .soft").await?.starts_with("3,967 telegrams · Modbus RTU"));
             let story = page.text(".story").await?;
-            assert!(story.starts_with("All 2 units answer; 33 requests went unanswered; 3 telegrams damaged"), "{story}");
+            assert!(story.starts_with("All 2 units answer; 33 requests went unanswered; 4 telegrams damaged"), "{story}");
             assert!(story.contains("Unit 9: 633 of 666 answered, usually after"), "{story}");
             page.picture(&format!("log-{name}-{theme}")).await?;
             // What is not ok, one by one.
@@ -105,7 +105,10 @@ async fn a_log_is_read_summed_up_and_looked_through() -> Result {
 #[tokio::test(flavor = "multi_thread")]
 async fn a_finding_leads_to_its_telegrams() -> Result {
     let page = Page::open(DESKTOP, false).await?;
-    page.paste(&log(300)).await?;
+    // Unit 9 is asked a hundred times and never answers.
+    let text: String =
+        log(300).lines().filter(|line| !line.contains("Rx: 09")).map(|line| format!("{line}\n")).collect();
+    page.paste(&text).await?;
     page.wait_for(".rows [aria-selected=true]").await?;
     page.click(".findings button").await?;
     page.until(".finding-chip", "Unit 9").await?;
@@ -122,7 +125,7 @@ async fn a_finding_leads_to_its_telegrams() -> Result {
     page.until(".filters .steps .number", "2 of ").await?;
     // Only these, and all again.
     page.click_text(".segments label", "Only these").await?;
-    page.until(COUNT, "15 of").await?;
+    page.until(COUNT, "100 of").await?;
     assert_eq!(page.count(".rows .row").await?, page.count(".rows .hit").await?);
     page.click(".finding-chip").await?;
     page.until(COUNT, "rows").await?;
@@ -316,7 +319,7 @@ async fn a_layout_is_made_by_marking_a_line() -> Result {
     .await?;
     page.click_text("dialog[open] button", "These are the bytes").await?;
     page.click("dialog[open] [aria-label=Close]").await?;
-    page.until(".story h2", "refused").await?;
+    page.until(".rows .s", "Exception 2").await?;
     page.close().await
 }
 

@@ -69,6 +69,10 @@ async fn every_view_is_as_strict() -> Result {
     let policy = policy.as_str().unwrap_or_default();
     assert!(policy.starts_with("default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'"), "{policy}");
     let loaded = "return performance.getEntriesByType('resource').map((entry) => entry.name)";
+    for view in ["build", "check", "devices", "read"] {
+        page.view(view).await?;
+        page.one("main h2, main textarea").await?;
+    }
     let before = page.value(loaded).await?;
     let origin = page.value("return location.origin").await?;
     let own = |name: &serde_json::Value| name.as_str().unwrap_or_default().starts_with(origin.as_str().unwrap());
@@ -215,7 +219,7 @@ async fn everything_is_reached_by_keyboard() -> Result {
                 "const e = document.activeElement; const box = (e.type == 'file' ? e.parentElement : e).getBoundingClientRect(); \
                  const part = e.closest('.views, .end, .byte-strip, .fields, .problems, .fold, .causes, .check-result, .lead, \
                  .said-lines, .editor, .reading-choices, .input-tools'); \
-                 return [(part?.className || e.tagName).split(' ')[0], \
+                 return [(part?.className || e.tagName), \
                  getComputedStyle(e.type == 'file' ? e.parentElement : e).outlineStyle != 'none' || e.tagName == 'TEXTAREA', \
                  Math.round(Math.min(box.top, innerHeight - box.bottom)), e.tagName == 'BODY', e.textContent.slice(0, 20)]",
             )
@@ -231,10 +235,10 @@ async fn everything_is_reached_by_keyboard() -> Result {
     for name in
         ["views", "end", "editor", "said-lines", "reading-choices", "input-tools", "lead", "problems", "byte-strip", "causes", "fields", "fold", "check-result"]
     {
-        assert!(stops.iter().any(|stop| stop == name), "{name} is not reached: {stops:?}");
+        assert!(stops.iter().any(|stop| stop.contains(name)), "{name} is not reached: {stops:?}");
     }
     for one in ["byte-strip", "fields"] {
-        assert_eq!(stops.iter().filter(|stop| *stop == one).count(), 1, "{one} is one stop: {stops:?}");
+        assert_eq!(stops.iter().filter(|stop| stop.contains(one)).count(), 1, "{one} is one stop: {stops:?}");
     }
     page.close().await
 }
@@ -265,7 +269,6 @@ async fn whatever_the_browser_keeps_the_page_starts() -> Result {
             page.one("main h2, main input, main textarea").await?;
             assert_eq!(page.count(".ended").await?, 0, "{value:.20} in {view}");
         }
-        page.go("about:blank").await.ok();
         page.go("").await?;
     }
     page.close().await

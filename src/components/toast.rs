@@ -1,5 +1,6 @@
 //! What is said for a while, and what only screen readers are told.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use leptos::leptos_dom::helpers::TimeoutHandle;
@@ -20,8 +21,11 @@ pub struct Toasts {
 struct Toast {
     text: String,
     /// What a button beside it does: its label, and the deed.
-    offer: Option<(String, Callback<()>)>,
+    offer: Option<(String, Act)>,
 }
+
+/// It outlasts the view that offers it.
+type Act = Arc<dyn Fn() + Send + Sync>;
 
 impl Toasts {
     pub fn new() -> Self {
@@ -39,8 +43,14 @@ impl Toasts {
     }
 
     /// Says `text` with a button beside it: "Undo".
-    pub fn offer(&self, text: impl Into<String>, label: impl Into<String>, act: Callback<()>) {
-        self.show(Toast { text: text.into(), offer: Some((label.into(), act)) }, Duration::from_secs(20));
+    pub fn offer(
+        &self,
+        text: impl Into<String>,
+        label: impl Into<String>,
+        act: impl Fn() + Send + Sync + 'static,
+    ) {
+        let offer = Some((label.into(), Arc::new(act) as Act));
+        self.show(Toast { text: text.into(), offer }, Duration::from_secs(20));
     }
 
     /// Tells `text` to screen readers, once there is a pause.
@@ -77,10 +87,10 @@ fn restart(waiting: StoredValue<Option<TimeoutHandle>>, act: impl Fn() + 'static
 #[component]
 pub fn ToastList() -> impl IntoView {
     let toasts = expect_context::<Toasts>();
-    let button = move |(label, act): (String, Callback<()>)| {
+    let button = move |(label, act): (String, Act)| {
         let act = move |_| {
             toasts.dismiss();
-            act.run(());
+            act();
         };
         view! { <button type="button" class="button low" on:click=act>{label}</button> }
     };

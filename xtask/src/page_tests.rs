@@ -40,8 +40,9 @@ pub fn run(names: &[&str]) -> Result {
     steps::run(
         tools::cargo()
             // What tests measure is printed, too.
-            .args(["test", "--package", "page-tests", "--", "--show-output"])
+            .args(["test", "--package", "page-tests"])
             .args(names)
+            .args(["--", "--show-output"])
             .env("BUSLENS_URL", page)
             .env("WEBDRIVER_URL", format!("http://127.0.0.1:{}", driver.port))
             .env("BUSLENS_CHROMIUM", &browser.chromium)
