@@ -120,8 +120,13 @@ struct Keeper {
 
 impl Address {
     pub fn new() -> Self {
-        let keeper =
-            Keeper { shows: None, written: String::new(), step: Step::Typed, waiting: None, visited: Vec::new() };
+        let keeper = Keeper {
+            shows: None,
+            written: String::new(),
+            step: Step::Typed,
+            waiting: None,
+            visited: Vec::new(),
+        };
         Self { view: RwSignal::new(split(&here()).0), keeper: StoredValue::new_local(keeper) }
     }
 
@@ -214,8 +219,9 @@ impl Address {
             // Back to a view that still shows it.
             Ok(plain) if first == Some(false) && plain == written(&shows.link(view)) => {}
             Ok(plain) => shows.follow(view, read(&plain)),
-            Err(Refusal::Damaged) => shows
-                .refuse("This link is damaged, or was cut on its way: what it held cannot be shown."),
+            Err(Refusal::Damaged) => {
+                shows.refuse("This link is damaged, or was cut on its way: what it held cannot be shown.")
+            }
             Err(Refusal::TooMuch) => {
                 shows.refuse("This link holds more than a link of Buslens ever does: it is not followed.");
             }

@@ -47,10 +47,8 @@ fn run() -> Result<(), String> {
     };
     let icon = hashed("icon", "svg", read(Path::new(icon))?);
     let links = Links { style: &style, icon: &icon, boot: &boot, glue: &glue, wasm: &wasm };
-    let document = File {
-        name: "index.html".to_owned(),
-        content: page::html(&template, &links)?.into_bytes(),
-    };
+    let document =
+        File { name: "index.html".to_owned(), content: page::html(&template, &links)?.into_bytes() };
     // The document last, so that a page served from this folder during a build finds all it links to.
     let mut files = vec![boot, glue, wasm, style, icon];
     files.extend(later);

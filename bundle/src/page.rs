@@ -54,7 +54,8 @@ pub fn linked<'a>(template: &'a str, rel: &str) -> Vec<&'a str> {
 /// policy governs, the files of the page in place of those it was written with at the end of it, and
 /// the note in the body. All addresses are relative, so that the page works in any folder of a site.
 pub fn html(template: &str, links: &Links) -> Result<String, String> {
-    let own = |line: &&str| !line.contains("<link rel=\"stylesheet\"") && !line.contains("<link rel=\"icon\"");
+    let own =
+        |line: &&str| !line.contains("<link rel=\"stylesheet\"") && !line.contains("<link rel=\"icon\"");
     let plain = template.lines().filter(own).map(|line| format!("{line}\n")).collect::<String>();
     let policy = format!("<head>\n    <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">");
     let with_policy = replace_once(&plain, "<head>", &policy)?;

@@ -152,7 +152,10 @@ mod tests {
     fn only_custom_sections_are_left_out() {
         let header = b"\0asm\x01\0\0\0".to_vec();
         let wasm = [&header[..], &[1, 2, 7, 7], &[0, 3, 1, 97, 9], &[3, 1, 0]].concat();
-        assert_eq!(without_custom_sections(&wasm).unwrap(), [&header[..], &[1, 2, 7, 7], &[3, 1, 0]].concat());
+        assert_eq!(
+            without_custom_sections(&wasm).unwrap(),
+            [&header[..], &[1, 2, 7, 7], &[3, 1, 0]].concat()
+        );
         assert!(without_custom_sections(&wasm[..wasm.len() - 1]).is_err());
     }
 }

@@ -31,7 +31,10 @@ async fn a_channel_is_written_in_the_words_of_the_manual() -> Result {
     // Section 2.6.1 of the manual prints these bytes.
     assert_eq!(page.bytes_in(REQUEST).await?, "01 10 00 D7 00 03 06 00 80 42 F6 E9 79 28 15");
     assert_eq!(page.bytes_in(REPLY).await?, "01 10 00 D7 00 03 30 30");
-    assert_eq!(page.text(&format!("{REQUEST} .said")).await?, "Write to unit 1: Universal channel 6 = 123.456, good.");
+    assert_eq!(
+        page.text(&format!("{REQUEST} .said")).await?,
+        "Write to unit 1: Universal channel 6 = 123.456, good."
+    );
     // The reply is in the device's words, too.
     assert!(page.text(&format!("{REPLY} .said")).await?.contains("Universal channel 6"));
     // The field that is typed in lights up its bytes.
@@ -210,7 +213,10 @@ async fn what_comes_back_can_be_opened_and_changed() -> Result {
     assert!(page.bytes_in(REPLY).await?.starts_with("01 03 04 00 00 12 34 "));
     page.press_button("Back to the request").await?;
     page.until(".making h3", "request").await?;
-    assert_eq!((page.bytes_in(REQUEST).await?, page.holds("Quantity").await?), (request.clone(), "2".to_owned()));
+    assert_eq!(
+        (page.bytes_in(REQUEST).await?, page.holds("Quantity").await?),
+        (request.clone(), "2".to_owned())
+    );
     page.fragment().await?;
     page.press_button("Edit the reply").await?;
     page.fragment().await?;
@@ -307,7 +313,8 @@ async fn a_telegram_is_built_by_keyboard_alone() -> Result {
             stops += 1;
             assert!(stops < 40, "{label} is not reached");
         }
-        let select_all = page.driver.action_chain().key_down(Key::Control).send_keys("a").key_up(Key::Control);
+        let select_all =
+            page.driver.action_chain().key_down(Key::Control).send_keys("a").key_up(Key::Control);
         select_all.perform().await?;
         page.press(text).await?;
     }

@@ -75,7 +75,10 @@ async fn algorithms_are_compared() -> Result {
     let page = Page::open_at("#/check", DESKTOP, true).await?;
     for (bytes, said) in [
         ("01 03 00 C8 00 03 84 35", "Only CRC-16/MODBUS gives the 84 35 at the end."),
-        ("01 03 00 C8 00 03 35 84", "Only CRC-16/MODBUS gives the 35 84 at the end, with its two bytes swapped."),
+        (
+            "01 03 00 C8 00 03 35 84",
+            "Only CRC-16/MODBUS gives the 35 84 at the end, with its two bytes swapped.",
+        ),
         ("31 32 33 34 35 36 37 38 39 3D BB", "Only CRC-16/ARC gives the 3D BB at the end."),
         ("01 02 03 04 05 99", "None of these gives the bytes at the end."),
     ] {

@@ -42,7 +42,8 @@ async fn settings_are_kept_and_followed() -> Result {
     page.picture("devices-desktop-light").await?;
 
     let registers = "#/read?device=keb-f5-modbus&text=01+03+00+00+00+02+C4+0B";
-    let process = "#/read?device=keb-f5-profibus&text=68+0D+0D+68+01+02+5D+01+00+00+00+00+00+00+00+34+12+A7+16";
+    let process =
+        "#/read?device=keb-f5-profibus&text=68+0D+0D+68+01+02+5D+01+00+00+00+00+00+00+00+34+12+A7+16";
     page.go(registers).await?;
     page.until("main h2", "Status word (Sy.51)").await?;
     page.go(process).await?;
@@ -124,7 +125,10 @@ async fn settings_are_saved_and_opened_as_a_file() -> Result {
     page.driver.execute("document.querySelector('.changes details').scrollIntoView()", vec![]).await?;
     let file = page.saved(".changes .actions:nth-of-type(2) .button:first-child").await?;
     let text = std::fs::read_to_string(&file)?;
-    assert_eq!(text, "read_mapping.entries = 1\nread_mapping.entries.0.entry = 00330101h\nprofibus = 01h\noutputs = 2\n");
+    assert_eq!(
+        text,
+        "read_mapping.entries = 1\nread_mapping.entries.0.entry = 00330101h\nprofibus = 01h\noutputs = 2\n"
+    );
     page.press_button("Reset all").await?;
     let chooser = page.driver.find(By::Css(".changes input[type=file]")).await?;
     chooser.send_keys(file.display().to_string()).await?;
@@ -156,7 +160,10 @@ async fn settings_are_saved_and_opened_as_a_file() -> Result {
 #[tokio::test(flavor = "multi_thread")]
 async fn an_unreadable_file_changes_nothing() -> Result {
     let page = Page::open_at("#/read", DESKTOP, false).await?;
-    page.before_loading("File.prototype.text = () => Promise.reject(new DOMException('gone', 'NotFoundError'))").await?;
+    page.before_loading(
+        "File.prototype.text = () => Promise.reject(new DOMException('gone', 'NotFoundError'))",
+    )
+    .await?;
     page.go("#/devices").await?;
     set_up(&page).await?;
     let file = tempfile::NamedTempFile::new()?;

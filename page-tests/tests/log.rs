@@ -83,7 +83,10 @@ async fn a_log_is_read_summed_up_and_looked_through() -> Result {
             assert_eq!(page.text(".file-bar strong").await?, "bus.log");
             assert!(page.text(".file-bar .soft").await?.starts_with("3,967 telegrams · Modbus RTU"));
             let story = page.text(".story").await?;
-            assert!(story.starts_with("All 2 units answer; 33 requests went unanswered; 4 telegrams damaged"), "{story}");
+            assert!(
+                story.starts_with("All 2 units answer; 33 requests went unanswered; 4 telegrams damaged"),
+                "{story}"
+            );
             assert!(story.contains("Unit 9: 633 of 666 answered, usually after"), "{story}");
             page.picture(&format!("log-{name}-{theme}")).await?;
             // What is not ok, one by one.
@@ -203,7 +206,10 @@ async fn a_log_and_its_notes_come_back() -> Result {
 async fn a_file_that_was_not_kept_is_asked_for() -> Result {
     let folder = tempfile::tempdir()?;
     let page = Page::open(DESKTOP, false).await?;
-    page.value("window.indexedDB.deleteDatabase; Object.defineProperty(window, 'indexedDB', { value: null })").await?;
+    page.value(
+        "window.indexedDB.deleteDatabase; Object.defineProperty(window, 'indexedDB', { value: null })",
+    )
+    .await?;
     open(&page, &file(folder.path(), "plant.log", log(8000).as_bytes())).await?;
     page.wait_for(".rows [aria-selected=true]").await?;
     page.fragment().await?;
@@ -227,7 +233,10 @@ async fn a_large_log_does_not_block_the_page() -> Result {
     let took = open(&page, &path).await?;
     page.wait_for(".rows .row").await?;
     let longest = page.value("return longest").await?;
-    println!("{:.1} MB read in {took:?}; the longest task of the page's thread took {longest} ms", text.len() as f64 / 1e6);
+    println!(
+        "{:.1} MB read in {took:?}; the longest task of the page's thread took {longest} ms",
+        text.len() as f64 / 1e6
+    );
     assert!(page.count(".rows .row").await? <= 100, "only rows in sight exist");
     // The end of the list is there, too.
     page.driver.execute("document.querySelector('.list').focus()", vec![]).await?;

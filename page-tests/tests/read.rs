@@ -139,7 +139,10 @@ async fn a_bad_character_is_marked_where_it_stands() -> Result {
     let marked = "return [...document.querySelectorAll('.marks .bad')].map((mark) => mark.textContent)";
     assert_eq!(page.value(marked).await?, json!(["é"]));
     let remarks = page.texts(".remarks li").await?;
-    assert!(remarks[0].contains("Line 2, character 7") && remarks[0].contains("is not a hex digit"), "{remarks:?}");
+    assert!(
+        remarks[0].contains("Line 2, character 7") && remarks[0].contains("is not a hex digit"),
+        "{remarks:?}"
+    );
     page.click(".remarks li:first-child button").await?;
     let selected = "const input = document.querySelector('.editor textarea'); \
                     return input.value.slice(input.selectionStart, input.selectionEnd)";
@@ -219,7 +222,12 @@ async fn a_telegram_can_be_typed_byte_by_byte_with_any_device() -> Result {
                 setTimeout(next, 0); }; next();";
             let typed = page.driver.execute_async(script, vec![json!(telegram)]).await?;
             let typed: String = typed.convert()?;
-            assert_eq!(typed.trim_end(), telegram.trim_end().replace('\r', ""), "{}, {telegram}", profile.key);
+            assert_eq!(
+                typed.trim_end(),
+                telegram.trim_end().replace('\r', ""),
+                "{}, {telegram}",
+                profile.key
+            );
             assert_eq!(page.count(".ended").await?, 0, "{}, {telegram}", profile.key);
             assert!(page.count(".byte-strip button, .log").await? > 0, "{}, {telegram}", profile.key);
         }

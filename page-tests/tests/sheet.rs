@@ -59,7 +59,8 @@ async fn only_the_sheet_is_printed() -> Result {
     page.until(".telegram h3", "Ask unit 1").await?;
     page.driver.cdp().send_raw("Emulation.setEmulatedMedia", json!({ "media": "print" })).await?;
     page.settle().await?;
-    let seen = "return ['.top', '.tools', '.paper'].map((css) => document.querySelector(css).offsetHeight > 0)";
+    let seen =
+        "return ['.top', '.tools', '.paper'].map((css) => document.querySelector(css).offsetHeight > 0)";
     assert_eq!(page.value(seen).await?, json!([false, false, true]));
     let ink = "return getComputedStyle(document.querySelector('.paper h2')).color";
     assert_eq!(page.value(ink).await?, json!("rgb(21, 32, 45)"), "dark on white, whatever the theme");

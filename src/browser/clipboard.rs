@@ -25,7 +25,8 @@ pub async fn write(text: &str) -> Result<(), Refused> {
 
 /// The old way, for which the text must stand in the page.
 fn write_by_selection(text: &str) -> bool {
-    let area = document().create_element("textarea").ok().and_then(|it| it.dyn_into::<HtmlTextAreaElement>().ok());
+    let area =
+        document().create_element("textarea").ok().and_then(|it| it.dyn_into::<HtmlTextAreaElement>().ok());
     let (Some(area), Some(body)) = (area, document().body()) else { return false };
     // The focus goes back to where it was.
     let before = document().active_element().and_then(|it| it.dyn_into::<web_sys::HtmlElement>().ok());

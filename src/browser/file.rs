@@ -9,10 +9,16 @@ use web_sys::{Blob, File, HtmlAnchorElement, HtmlInputElement, Url};
 /// Why a file has no text for us.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NotRead {
-    TooLong { name: String },
+    TooLong {
+        name: String,
+    },
     /// It is a folder, it is gone, or the browser may not read it.
-    Unreadable { name: String },
-    Empty { name: String },
+    Unreadable {
+        name: String,
+    },
+    Empty {
+        name: String,
+    },
 }
 
 impl NotRead {

@@ -84,16 +84,16 @@ pub fn ByteStrip(
     let is_chosen = Selector::new(move || lights.chosen.get().map(|chosen| chosen.at));
     let choose = move |at: usize| {
         stop.set(at);
-        let span = blocks.with_untracked(|all| {
-            all.iter().find(|block| block.span.contains(at)).map(|block| block.span)
-        });
+        let span = blocks
+            .with_untracked(|all| all.iter().find(|block| block.span.contains(at)).map(|block| block.span));
         lights.chosen.set(span.map(|span| Chosen { span, at }));
     };
     let keys = move |event: KeyboardEvent| {
         if event.key() == "Escape" && lights.chosen.get_untracked().is_some() {
             event.stop_propagation();
             lights.chosen.set(None);
-        } else if let Some(at) = strip.get_untracked().and_then(|strip| roving::follow(&event, &strip, "button"))
+        } else if let Some(at) =
+            strip.get_untracked().and_then(|strip| roving::follow(&event, &strip, "button"))
         {
             choose(at);
         }
@@ -201,9 +201,7 @@ fn caption(leaf: &Field) -> String {
             None => leaf.value_text(),
         },
         // "read" of "Read holding registers": the field table has all of it.
-        Value::Selector { chosen, .. } => {
-            chosen.label.split(' ').next().unwrap_or_default().to_lowercase()
-        }
+        Value::Selector { chosen, .. } => chosen.label.split(' ').next().unwrap_or_default().to_lowercase(),
         Value::Missing { .. } => "cut off".to_owned(),
         Value::Group | Value::Bytes => String::new(),
         Value::Text(_) => leaf.value_text(),
@@ -212,7 +210,8 @@ fn caption(leaf: &Field) -> String {
 
 /// Where the bytes of a form's entry stand in the telegram.
 pub fn span_of(detail: &Detail, entry: &Entry) -> Option<Span> {
-    let fits = |leaf: &&Field| leaf.spec == entry.spec && (entry.number.is_none() || leaf.number == entry.number);
+    let fits =
+        |leaf: &&Field| leaf.spec == entry.spec && (entry.number.is_none() || leaf.number == entry.number);
     fields_by_byte(detail).into_iter().find(fits).map(|leaf| leaf.span)
 }
 

@@ -26,7 +26,10 @@ fn Checked(shown: Shown, check: Check, lights: Lights) -> impl IntoView {
     let short = name.split(['-', '/']).next().unwrap_or(&name).to_owned();
     let covered = check.covered;
     let choose = move |_| lights.chosen.set(Some(Chosen { span: covered, at: covered.from }));
-    let followed = href(View::Check, &link_to(Span::new(covered.from, covered.to + check.width).of(shown.bytes()), check.kind));
+    let followed = href(
+        View::Check,
+        &link_to(Span::new(covered.from, covered.to + check.width).of(shown.bytes()), check.kind),
+    );
     let title = if ok { format!("{short} is valid") } else { format!("{short} does not match") };
     let order = if check.low_first && check.width > 1 { "low byte first" } else { "" };
     let corrected = hex(&corrected(shown.bytes(), &check));
@@ -92,12 +95,12 @@ fn Unchecked(shown: Shown) -> impl IntoView {
             ("Not checked", "It is too short to have its check: it was cut, or more is to come.".to_owned())
         }
         // A short acknowledgement of PROFIBUS is a byte of its own.
-        _ if shown.bytes().len() == 1 => {
-            ("No check", "It is a single byte, which has no check.".to_owned())
-        }
+        _ if shown.bytes().len() == 1 => ("No check", "It is a single byte, which has no check.".to_owned()),
         _ => (
             "No check of its own",
-            format!("{protocol} has none here: what carries it checks the bytes. A changed byte cannot be told."),
+            format!(
+                "{protocol} has none here: what carries it checks the bytes. A changed byte cannot be told."
+            ),
         ),
     };
     view! {

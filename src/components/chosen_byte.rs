@@ -12,8 +12,10 @@ pub fn ChosenByte(shown: Shown, lights: Lights) -> impl IntoView {
     move || {
         let at = lights.chosen.get()?.at;
         let byte = shown.bytes().get(at).copied()?;
-        let shares: Vec<_> =
-            shares(&shown.detail, shown.bytes(), at).into_iter().map(|share| view! { <Shared share /> }).collect();
+        let shares: Vec<_> = shares(&shown.detail, shown.bytes(), at)
+            .into_iter()
+            .map(|share| view! { <Shared share /> })
+            .collect();
         Some(view! {
             <section class="part chosen-byte" aria-live="polite">
                 <header>
@@ -35,8 +37,7 @@ pub fn ChosenByte(shown: Shown, lights: Lights) -> impl IntoView {
 
 #[component]
 fn Shared(share: Share) -> impl IntoView {
-    let steps: Vec<_> =
-        share.steps.iter().map(|step| view! { <li>{step.sentence()}</li> }).collect();
+    let steps: Vec<_> = share.steps.iter().map(|step| view! { <li>{step.sentence()}</li> }).collect();
     view! {
         <p class="place">{share.place.sentence()}</p>
         {(!steps.is_empty()).then(|| view! { <ul class="steps">{steps}</ul> })}

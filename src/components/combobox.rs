@@ -85,6 +85,10 @@ where
         on_input.run(event_target_value(&event));
     };
     let left = move |event: FocusEvent| {
+        // A field that is taken away with the focus in it loses that last.
+        if open.is_disposed() {
+            return;
+        }
         let to = event.related_target().and_then(|to| to.dyn_into::<web_sys::Node>().ok());
         let stays = root.get_untracked().is_some_and(|root| root.contains(to.as_ref()));
         if !stays {

@@ -41,7 +41,8 @@ pub fn FieldTable(
     let body = NodeRef::<html::Tbody>::new();
     // Groups that a person opened, or closed.
     let turned = RwSignal::new(HashSet::<String>::new());
-    let is_open = move |row: &Row| row.opens.map(|open| open != turned.with(|turned| turned.contains(&row.id)));
+    let is_open =
+        move |row: &Row| row.opens.map(|open| open != turned.with(|turned| turned.contains(&row.id)));
     let shown = Memo::new(move |_| rows.with(|rows| visible(rows, is_open)));
     let stop = RwSignal::new(0_usize);
     let place = move |id: &str| shown.with(|rows| rows.iter().position(|row| row.id == id));
@@ -301,7 +302,11 @@ fn of_part(part: &'static Bits, value: u64, field: &Field, id: String, depth: us
         class: role_class(field.spec.role),
         faulty: false,
         span: field.span,
-        bytes: if part.count == 1 { format!("bit {}", part.from) } else { format!("bits {last} to {}", part.from) },
+        bytes: if part.count == 1 {
+            format!("bit {}", part.from)
+        } else {
+            format!("bits {last} to {}", part.from)
+        },
         value: value.to_string(),
         meaning: meaning.to_owned(),
         note: part.note,
@@ -322,7 +327,10 @@ mod tests {
         let report = decode(PAIR, Options { device, ..Options::default() });
         let bytes = &report.telegrams[1].line.bytes;
         let rows = rows(&report.detail(1).unwrap(), bytes);
-        let all: Vec<String> = rows.iter().map(|row| format!("{}{} = {}", " ".repeat(row.depth), row.label, row.value)).collect();
+        let all: Vec<String> = rows
+            .iter()
+            .map(|row| format!("{}{} = {}", " ".repeat(row.depth), row.label, row.value))
+            .collect();
         assert!(all.contains(&"Universal channel 1 = 82.4724".to_owned()), "{all:?}");
         assert!(!all.iter().any(|row| row.contains("Register 200")), "{all:?}");
         let ids: HashSet<&String> = rows.iter().map(|row| &row.id).collect();

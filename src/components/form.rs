@@ -52,7 +52,10 @@ impl Shared {
     /// What is wrong with an entry: it does not fit, or should not be so.
     fn said(&self, entry: &Entry) -> String {
         let misfit = self.entries.with(|all| {
-            all.misfits.iter().find(|misfit| misfit.path == entry.path).map(|misfit| misfit.message.sentence())
+            all.misfits
+                .iter()
+                .find(|misfit| misfit.path == entry.path)
+                .map(|misfit| misfit.message.sentence())
         });
         let spec = entry.spec;
         misfit.map(|misfit| misfit + ".").unwrap_or_else(|| match &entry.content {
@@ -301,7 +304,8 @@ fn behind(content: &Content, spec: &Spec) -> String {
     match content {
         Content::Number { .. } => spec.unit.to_owned(),
         Content::Text { text } => {
-            let characters = buslens::field::unescaped(text).map_or(text.chars().count(), |bytes| bytes.len());
+            let characters =
+                buslens::field::unescaped(text).map_or(text.chars().count(), |bytes| bytes.len());
             count(characters, "character")
         }
         Content::Choice { chosen, .. } => Message::term(chosen.label).sentence(),

@@ -29,7 +29,8 @@ const VIEWS: [(View, Glyph); 4] = [
 #[component]
 pub fn Header() -> impl IntoView {
     let address = expect_context::<Address>();
-    let is_current = move |view| address.view() == view || (view == View::Read && address.view() == View::Sheet);
+    let is_current =
+        move |view| address.view() == view || (view == View::Read && address.view() == View::Sheet);
     let links = VIEWS.map(|(view, glyph)| {
         view! {
             <a href=format!("#/{}", view.key()) aria-current=move || is_current(view).then_some("page")>
@@ -132,7 +133,8 @@ fn Keys() -> impl IntoView {
             "/" => {
                 event.prevent_default();
                 // The first field of a view is what somebody types into first.
-                let field = document().query_selector("main textarea, main input[type=search], main input").ok();
+                let field =
+                    document().query_selector("main textarea, main input[type=search], main input").ok();
                 if let Some(field) = field.flatten().and_then(|field| field.dyn_into::<HtmlElement>().ok()) {
                     let _ = field.focus();
                 }

@@ -35,7 +35,6 @@ pub enum Glyph {
     Search,
     Sun,
     Tick,
-    Trash,
     Undo,
     Up,
     Warning,
@@ -63,7 +62,9 @@ impl Glyph {
             Self::Edit => "m3 13 .7-3L11 2.7l2.3 2.3L6 12.3z",
             Self::File => "M4 2h5l3.5 3.5V14H4zM9 2v3.5h3.5",
             Self::Gap => "M3 8h2M7 8h2M11 8h2",
-            Self::Help => "M8 2a6 6 0 1 1 0 12A6 6 0 0 1 8 2zM6.3 6.3a1.8 1.8 0 1 1 2.5 1.7c-.5.3-.8.6-.8 1.2M8 11.3v.1",
+            Self::Help => {
+                "M8 2a6 6 0 1 1 0 12A6 6 0 0 1 8 2zM6.3 6.3a1.8 1.8 0 1 1 2.5 1.7c-.5.3-.8.6-.8 1.2M8 11.3v.1"
+            }
             Self::Learn => "M1.5 6 8 3l6.5 3L8 9zM4 7.5V11c2 2 6 2 8 0V7.5",
             Self::Link => {
                 "M6.5 9.5 9.5 6.5M7.5 4.5 9 3a2.8 2.8 0 0 1 4 4l-1.5 1.5M8.5 11.5 7 13a2.8 2.8 0 0 1-4-4l1.5-1.5"
@@ -82,7 +83,6 @@ impl Glyph {
                  11.9l.7.7M3.4 12.6l.7-.7M11.9 4.1l.7-.7"
             }
             Self::Tick => "m3 8.5 3.5 3.5L13 4.5",
-            Self::Trash => "M3 4.5h10M6 4.5V3h4v1.5M4.5 4.5l.5 9h6l.5-9",
             Self::Undo => "M3 6h6.5a3.5 3.5 0 0 1 0 7H6M5.5 3 2.5 6l3 3",
             Self::Up => "M8 13V3M4 7l4-4 4 4",
             Self::Warning => "M8 2 14.5 13.5h-13zM8 6.5v3.5M8 12v.1",

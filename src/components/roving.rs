@@ -23,7 +23,8 @@ pub fn follow(event: &KeyboardEvent, root: &Element, stops: &str) -> Option<usiz
     let found = root.query_selector_all(stops).ok()?;
     let focused = document().active_element();
     let all = (0..found.length()).filter_map(|index| found.get(index)?.dyn_into::<Element>().ok());
-    let at = all.enumerate().find(|(_, element)| Some(element) == focused.as_ref()).map(|(index, _)| index)?;
+    let at =
+        all.enumerate().find(|(_, element)| Some(element) == focused.as_ref()).map(|(index, _)| index)?;
     let to = step(&event.key(), at, found.length() as usize)?;
     event.prevent_default();
     focus(root, stops, to);

@@ -81,7 +81,8 @@ impl LaterViews {
 pub fn LaterView(which: fn(&Later) -> fn() -> AnyView) -> impl IntoView {
     let views = expect_context::<LaterViews>();
     views.load();
-    move || match views.0.get() {
+    move || {
+        match views.0.get() {
         Loaded::There(later) => which(later)(),
         Loaded::Not | Loaded::Loading => view! { <p class="coming" role="status">"One moment"</p> }.into_any(),
         Loaded::Failed => view! {
@@ -93,5 +94,6 @@ pub fn LaterView(which: fn(&Later) -> fn() -> AnyView) -> impl IntoView {
             </div>
         }
         .into_any(),
+    }
     }
 }

@@ -194,7 +194,14 @@ impl Client {
         });
         worker.set_onmessage(Some(hear.as_ref().unchecked_ref()));
         worker.set_onerror(Some(fail.as_ref().unchecked_ref()));
-        Some(Running { worker, waiting: Some(Vec::new()), reads: false, watch: None, _hear: hear, _fail: fail })
+        Some(Running {
+            worker,
+            waiting: Some(Vec::new()),
+            reads: false,
+            watch: None,
+            _hear: hear,
+            _fail: fail,
+        })
     }
 
     fn heard(&self, event: &MessageEvent) {

@@ -71,7 +71,10 @@ impl Marked {
     fn marks(&self) -> Option<Marks> {
         let span = |part: Part| {
             let (_, (from, to)) = self.parts.iter().find(|(other, _)| *other == part)?;
-            self.line.get(*from..*to).filter(|text| !text.is_empty()).map(|text| (Span::new(*from, *to), text))
+            self.line
+                .get(*from..*to)
+                .filter(|text| !text.is_empty())
+                .map(|text| (Span::new(*from, *to), text))
         };
         let (bytes, _) = span(Part::Bytes)?;
         let directions = [(Part::Request, Direction::Request), (Part::Response, Direction::Response)];
@@ -97,14 +100,23 @@ pub enum Request {
     List(Choice),
     /// The timeline of all of it, or of a stretch.
     Lanes(Option<(i64, i64)>),
-    Rows { from: usize, count: usize },
+    Rows {
+        from: usize,
+        count: usize,
+    },
     Show(Which),
-    Series { unit: Option<u8>, address: u16 },
+    Series {
+        unit: Option<u8>,
+        address: u16,
+    },
     /// The lines without bytes.
     Unread,
     /// A line to mark parts in.
     Sample,
-    Export { kind: Export, notes: BTreeMap<usize, String> },
+    Export {
+        kind: Export,
+        notes: BTreeMap<usize, String>,
+    },
 }
 
 /// Which telegrams the list has.
@@ -174,7 +186,10 @@ impl Export {
 pub enum Answer {
     /// The worker can hear.
     Hello,
-    Progress { done: f64, telegrams: usize },
+    Progress {
+        done: f64,
+        telegrams: usize,
+    },
     /// Why the file is not read.
     Refused(String),
     /// Why nobody reads it any more; it can be opened again. The worker itself cannot say that.
@@ -185,12 +200,18 @@ pub enum Answer {
     /// How many telegrams the list has now.
     List(usize),
     Lanes(Lanes),
-    Rows { from: usize, rows: Vec<Row> },
+    Rows {
+        from: usize,
+        rows: Vec<Row>,
+    },
     Shown(Box<Shown>),
     /// There is no such telegram.
     NothingThere,
     Series(Vec<Value>),
-    Unread { lines: Vec<(u32, String)>, more: usize },
+    Unread {
+        lines: Vec<(u32, String)>,
+        more: usize,
+    },
     Sample(String),
     /// A file comes beside it.
     Exported(Export),

@@ -86,10 +86,9 @@ impl<S: Source> Reader<S> {
             Which::Wrong { from, forwards: true } => {
                 (from + 1..self.chosen.len()).find(wrong).map(|place| self.chosen[place] as usize)
             }
-            Which::Wrong { from, forwards: false } => (0..from.min(self.chosen.len()))
-                .rev()
-                .find(wrong)
-                .map(|place| self.chosen[place] as usize),
+            Which::Wrong { from, forwards: false } => {
+                (0..from.min(self.chosen.len())).rev().find(wrong).map(|place| self.chosen[place] as usize)
+            }
         };
         let Some(index) = index else { return Answer::NothingThere };
         let entry = &entries[index];
@@ -192,7 +191,8 @@ impl<S: Source> Reader<S> {
                     Some(Direction::Response) => " answers",
                     None => "",
                 };
-                text += &format!("#{}{time}{unit}{arrow}: {} [{}]\n", row.index + 1, row.said, row.state.word());
+                text +=
+                    &format!("#{}{time}{unit}{arrow}: {} [{}]\n", row.index + 1, row.said, row.state.word());
             }
         }
         text

@@ -123,7 +123,11 @@ fn hear(request: Request, beside: JsValue) {
 /// Reads a file from its beginning to its end.
 async fn open(turn: u32, file: File, how: How) {
     let size = file.size();
-    let gone = || Answer::Refused("The file cannot be read: it was changed, moved, or is a folder. Open it again.".into());
+    let gone = || {
+        Answer::Refused(
+            "The file cannot be read: it was changed, moved, or is a folder. Open it again.".into(),
+        )
+    };
     let mut part = Vec::new();
     if !come(file.part(0, BEGINNING as u64), &mut part).await {
         return tell(&gone());

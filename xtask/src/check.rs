@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use crate::steps::{self, Result, Step};
 use crate::build::{self, Build};
+use crate::steps::{self, Result, Step};
 use crate::{page_tests, size, tools};
 
 const STEPS: &[Step] = &[

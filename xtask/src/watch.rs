@@ -5,9 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
-use crate::steps::{self, Result};
 use crate::build::{self, Build};
 use crate::server;
+use crate::steps::{self, Result};
 
 /// What the page is made of.
 const WATCHED: &[&str] = &["src", "crates", "style", "index.html", "Cargo.toml", "bundle/src"];

@@ -34,8 +34,7 @@ pub fn Making() -> impl IntoView {
     let on_edit = Callback::new(move |(path, edit): (String, Edit)| state.edit(&path, &edit));
     // The field's bytes light up while it is typed.
     let on_focus = Callback::new(move |entry: Entry| {
-        let (telegram, direction) =
-            built.with_untracked(|built| (built.telegram.clone(), built.direction));
+        let (telegram, direction) = built.with_untracked(|built| (built.telegram.clone(), built.direction));
         let span = telegram.and_then(|telegram| span_of(&telegram.detail, &entry));
         let lights = if direction == Direction::Request { state.request_lights } else { state.reply_lights };
         lights.chosen.set(span.map(|span| Chosen { span, at: span.from }));

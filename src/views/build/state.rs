@@ -73,7 +73,7 @@ impl Built {
 impl BuildState {
     pub fn new() -> Self {
         let devices = expect_context::<DeviceSettings>();
-        let mut editor = first(&Settings::default());
+        let editor = first(&Settings::default());
         let built = Built {
             label: editor.label().sentence(),
             is_task: false,
@@ -142,7 +142,8 @@ impl BuildState {
         // The same may be asked of the other device, too; else its telegram stays, field by field.
         let same = task.as_ref().and_then(|task| {
             let all = device.map_or(Vec::new(), |device| offers(Some(device)));
-            let offer = all.into_iter().find(|it| matches!(it, Offer::Task(_)) && it.label().to_string() == *task)?;
+            let offer =
+                all.into_iter().find(|it| matches!(it, Offer::Task(_)) && it.label().to_string() == *task)?;
             Some(Found { device, offer })
         });
         match (task, same) {
@@ -232,9 +233,9 @@ impl BuildState {
         let settings = self.settings();
         let device = self.device.get_untracked();
         let options = Options { device, settings: settings.clone(), ..Options::default() };
-        let asked = self.request.try_update_value(|request| {
-            request.as_mut().and_then(|request| request.bytes().ok())
-        });
+        let asked = self
+            .request
+            .try_update_value(|request| request.as_mut().and_then(|request| request.bytes().ok()));
         let asked = asked.flatten();
         let before = self.built.with_untracked(|built| built.telegram.clone());
         let built = self.with_editor(|editor| {
@@ -319,7 +320,9 @@ impl BuildState {
 
 /// What is built where nobody chose: what most people need first.
 fn first(settings: &Settings) -> Editor {
-    let usual = offers(None).into_iter().filter(|offer| offer.label().to_string() == "Read holding registers, request");
+    let usual = offers(None)
+        .into_iter()
+        .filter(|offer| offer.label().to_string() == "Read holding registers, request");
     let all = usual.chain(offers(None));
     let editors = all.flat_map(|offer| {
         PROTOCOLS.iter().filter_map(move |protocol| Editor::new(offer, 1, protocol, settings).ok())
@@ -341,7 +344,9 @@ fn read(
         let report = Arc::new(decode(&format!("{}\n{}", hex(asked), hex(bytes)), options.clone()));
         let shown = Shown::of(&report, 1, &options);
         let pair = report.telegrams.len() == 2
-            && shown.as_ref().is_some_and(|it| it.bytes() == bytes && it.telegram.guess.direction == direction);
+            && shown
+                .as_ref()
+                .is_some_and(|it| it.bytes() == bytes && it.telegram.guess.direction == direction);
         if pair {
             return shown;
         }

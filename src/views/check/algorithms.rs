@@ -42,7 +42,10 @@ fn conclusion(comparisons: &[Comparison]) -> String {
         }
         _ => {
             let names: Vec<&str> = fitting.iter().map(|it| it.checksum.name).collect();
-            format!("{} give the bytes at the end. A check of one byte fits by chance once in 256.", names.join(", "))
+            format!(
+                "{} give the bytes at the end. A check of one byte fits by chance once in 256.",
+                names.join(", ")
+            )
         }
     }
 }
@@ -99,14 +102,17 @@ pub fn Algorithms() -> impl IntoView {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use super::super::state::tests::work;
+    use super::*;
 
     #[test]
     fn the_algorithm_of_a_frame_is_found() {
         for (text, said) in [
             ("01 03 00 C8 00 03 84 35", "Only CRC-16/MODBUS gives the 84 35 at the end."),
-            ("01 03 00 C8 00 03 35 84", "Only CRC-16/MODBUS gives the 35 84 at the end, with its two bytes swapped."),
+            (
+                "01 03 00 C8 00 03 35 84",
+                "Only CRC-16/MODBUS gives the 35 84 at the end, with its two bytes swapped.",
+            ),
             ("31 32 33 34 35 36 37 38 39 3D BB", "Only CRC-16/ARC gives the 3D BB at the end."),
             ("01 02 03 04 05 99", "None of these gives the bytes at the end."),
         ] {

@@ -66,7 +66,7 @@ pub fn Check() -> impl IntoView {
 }
 
 /// What the check is called in short.
-pub(self) const fn short(algorithm: &Algorithm) -> &'static str {
+const fn short(algorithm: &Algorithm) -> &'static str {
     match (algorithm.width, algorithm.kind.as_bytes()) {
         (2, _) => "CRC",
         (_, b"lrc") => "LRC",
@@ -90,7 +90,8 @@ fn Input() -> impl IntoView {
     // The last bytes are a check or not: what they are called depends on the check.
     let ending = move || {
         let algorithm = work.with(|work| work.algorithm);
-        let (bytes, are) = if algorithm.width == 1 { ("The last byte", "is") } else { ("The last two bytes", "are") };
+        let (bytes, are) =
+            if algorithm.width == 1 { ("The last byte", "is") } else { ("The last two bytes", "are") };
         let name = short(algorithm);
         view! {
             <div class="entry">
@@ -217,14 +218,10 @@ fn verdict(work: &Work, text: &str) -> impl IntoView + use<> {
         Some(found) if *found == *work.wire() => {
             ("good", Glyph::Tick, format!("The {name} in these bytes is valid"))
         }
-        Some(found) => {
-            ("bad", Glyph::Warning, format!("{} is not the {name} of these bytes", hex(found)))
+        Some(found) => ("bad", Glyph::Warning, format!("{} is not the {name} of these bytes", hex(found))),
+        None if work.algorithm.width == 2 && work.value() == 0 && work.covered > 2 => {
+            ("good", Glyph::Tick, "0000h over a whole frame: its last two bytes are its valid CRC".to_owned())
         }
-        None if work.algorithm.width == 2 && work.value() == 0 && work.covered > 2 => (
-            "good",
-            Glyph::Tick,
-            "0000h over a whole frame: its last two bytes are its valid CRC".to_owned(),
-        ),
         None => return None,
     };
     Some(view! {

@@ -62,7 +62,9 @@ fn rows(work: &Work, Step { deed, byte, before, after }: Step) -> Vec<Bits> {
             Bits::new(format!("Add byte {byte}"), value, "operand"),
             Bits::new("New sum", after, "after"),
         ],
-        Deed::Complement => vec![Bits::new("Sum", before, ""), Bits::new("100h minus the sum", after, "after")],
+        Deed::Complement => {
+            vec![Bits::new("Sum", before, ""), Bits::new("100h minus the sum", after, "after")]
+        }
     }
 }
 

@@ -53,9 +53,8 @@ impl Work {
         let bytes = bytes(text);
         let width = algorithm.width;
         let before = bytes.len().saturating_sub(width);
-        let matches = || {
-            before > 0 && bytes.len() <= MOST && wire(algorithm, &bytes[..before]) == bytes[before..]
-        };
+        let matches =
+            || before > 0 && bytes.len() <= MOST && wire(algorithm, &bytes[..before]) == bytes[before..];
         let covered = match ending {
             Some(Ending::Check) => before,
             Some(Ending::Data) => bytes.len(),
@@ -229,8 +228,14 @@ impl CheckState {
 
     pub fn link(&self) -> Link {
         let mut entries = vec![(CHECK.to_owned(), self.algorithm.with_untracked(|it| it.kind.to_owned()))];
-        entries.extend(self.ending.get_untracked().map(|ending| (ENDING.to_owned(), ending.key().to_owned())));
-        Link { text: self.text.get_untracked(), telegram: self.at.get_untracked(), entries, ..Link::default() }
+        entries
+            .extend(self.ending.get_untracked().map(|ending| (ENDING.to_owned(), ending.key().to_owned())));
+        Link {
+            text: self.text.get_untracked(),
+            telegram: self.at.get_untracked(),
+            entries,
+            ..Link::default()
+        }
     }
 
     pub fn follow(&self, link: Link) {
@@ -251,7 +256,8 @@ impl CheckState {
 
 /// A link to where the check of `bytes` is followed, whose last ones are the check.
 pub fn link_to(bytes: &[u8], kind: &str) -> Link {
-    let entries = vec![(CHECK.to_owned(), kind.to_owned()), (ENDING.to_owned(), Ending::Check.key().to_owned())];
+    let entries =
+        vec![(CHECK.to_owned(), kind.to_owned()), (ENDING.to_owned(), Ending::Check.key().to_owned())];
     Link { text: hex(bytes), entries, ..Link::default() }
 }
 

@@ -23,9 +23,7 @@ pub fn Bytes() -> impl IntoView {
     let strip = NodeRef::<html::Ol>::new();
     let here = Memo::new(move |_| byte_of(state.step()));
     let bytes = move || work.with(|work| work.data().iter().copied().enumerate().collect::<Vec<_>>());
-    let behind = move |at: usize| {
-        work.with(|work| hex_value(work.behind(at).into(), work.algorithm.width))
-    };
+    let behind = move |at: usize| work.with(|work| hex_value(work.behind(at).into(), work.algorithm.width));
     let keys = move |event: KeyboardEvent| {
         if let Some(at) = strip.get_untracked().and_then(|strip| roving::follow(&event, &strip, "button")) {
             state.go(work.with_untracked(|work| work.done_with(at)));
@@ -39,7 +37,9 @@ pub fn Bytes() -> impl IntoView {
         };
         let caption = move || match here.get() {
             Some(here) if here > at => behind(at),
-            Some(here) if here == at && state.at() < work.with(|work| work.done_with(at)) => "in work".to_owned(),
+            Some(here) if here == at && state.at() < work.with(|work| work.done_with(at)) => {
+                "in work".to_owned()
+            }
             Some(here) if here == at => behind(at),
             _ => String::new(),
         };
@@ -213,7 +213,8 @@ pub fn StepList() -> impl IntoView {
     let steps = Memo::new(move |_| {
         work.with(|work| {
             let whole = work.algorithm.width == 1;
-            let own = |(_, step): &(usize, &Step)| whole || step.byte == byte.get() && step.deed != Deed::Start;
+            let own =
+                |(_, step): &(usize, &Step)| whole || step.byte == byte.get() && step.deed != Deed::Start;
             work.steps.iter().enumerate().filter(own).map(|(at, step)| (at, *step)).collect::<Vec<_>>()
         })
     });
@@ -230,9 +231,8 @@ pub fn StepList() -> impl IntoView {
     };
     let first = move || steps.with(|steps| steps.first().map_or(0, |(at, _)| *at));
     let row = move |(at, step): (usize, Step)| {
-        let (brief, after) = work.with_untracked(|work| {
-            (brief(work, step), hex_value(step.after.into(), work.algorithm.width))
-        });
+        let (brief, after) = work
+            .with_untracked(|work| (brief(work, step), hex_value(step.after.into(), work.algorithm.width)));
         let here = move || state.at() == at;
         let within = move || steps.with(|steps| steps.iter().any(|(other, _)| *other == state.at()));
         view! {

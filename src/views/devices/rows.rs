@@ -85,7 +85,8 @@ fn TableRow(list: List, index: usize, row: Row, mapping: bool) -> impl IntoView 
         .into_any();
     }
     let set = move |parameter: u16, sets: u8, words: u8| state.set_row(list, index, parameter, sets, words);
-    let choose = Callback::new(move |parameter: Parameter| set(parameter.address, row.sets.max(1), parameter.words));
+    let choose =
+        Callback::new(move |parameter: Parameter| set(parameter.address, row.sets.max(1), parameter.words));
     let known = (1..=2).contains(&row.words);
     view! {
         <tr>
@@ -221,7 +222,8 @@ fn option(parameter: &Parameter) -> AnyView {
 #[component]
 fn Sets(sets: u8, place: String, on_set: Callback<u8>) -> impl IntoView {
     let one = sets.is_power_of_two();
-    let text = (0..8).filter(|set| sets >> set & 1 == 1).map(|set| set.to_string()).collect::<Vec<_>>().join(", ");
+    let text =
+        (0..8).filter(|set| sets >> set & 1 == 1).map(|set| set.to_string()).collect::<Vec<_>>().join(", ");
     let options = (0..8_u8).map(|set| {
         let own = 1 << set;
         view! { <option value=own.to_string() prop:selected=sets == own>{set.to_string()}</option> }

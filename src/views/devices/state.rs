@@ -135,11 +135,7 @@ impl DeviceSettings {
     pub fn put_all_back(&self) {
         self.change(None, |set_up| *set_up = Settings::default().into());
         let state = *self;
-        self.toasts.offer(
-            "All devices are at factory settings.",
-            "Undo",
-            move || state.undo(),
-        );
+        self.toasts.offer("All devices are at factory settings.", "Undo", move || state.undo());
     }
 
     pub fn undo(&self) {
@@ -171,8 +167,8 @@ impl DeviceSettings {
     fn change(&self, field: Option<&str>, change: impl FnOnce(&mut SetUp)) {
         let moment = Moment { set_up: self.set_up.get_untracked(), field: field.map(str::to_owned) };
         self.before.update(|moments| {
-            let goes_on = moment.field.is_some()
-                && moments.last().is_some_and(|last| last.field == moment.field);
+            let goes_on =
+                moment.field.is_some() && moments.last().is_some_and(|last| last.field == moment.field);
             if !goes_on {
                 moments.push(moment);
             }
@@ -272,7 +268,10 @@ impl DeviceSettings {
     }
 
     pub fn link(&self) -> Link {
-        Link { options: Options { settings: untrack(|| self.settings()), ..Options::default() }, ..Link::default() }
+        Link {
+            options: Options { settings: untrack(|| self.settings()), ..Options::default() },
+            ..Link::default()
+        }
     }
 
     pub fn follow(&self, link: Link) {

@@ -44,7 +44,8 @@ pub fn Editor() -> impl IntoView {
         let _ = area.set_selection_range(utf16_offset(&text, span.from), utf16_offset(&text, span.to));
     });
     let rows = move || read.with_text(|text| text.split('\n').count().clamp(2, 200));
-    let columns = move || read.with_text(|text| text.lines().map(str::len).max().unwrap_or_default().clamp(40, 120));
+    let columns =
+        move || read.with_text(|text| text.lines().map(str::len).max().unwrap_or_default().clamp(40, 120));
     view! {
         <div
             class="editor"
@@ -200,7 +201,8 @@ fn Remarks(select: Callback<Span>) -> impl IntoView {
         let items: Vec<_> = read.with_text(|text| {
             let item = |remark: &&Remark| {
                 let (line, column) = place(text, remark.span.from);
-                let (class, span) = (if remark.severity == Severity::Error { "bad" } else { "warn" }, remark.span);
+                let (class, span) =
+                    (if remark.severity == Severity::Error { "bad" } else { "warn" }, remark.span);
                 view! {
                     <li class=class>
                         <Icon glyph=Glyph::Warning />
@@ -214,7 +216,8 @@ fn Remarks(select: Callback<Span>) -> impl IntoView {
             remarks.iter().take(SHOWN).map(item).collect()
         });
         (total > 0).then(|| {
-            let more = (total > SHOWN).then(|| view! { <li class="more">{format!("and {} more", total - SHOWN)}</li> });
+            let more = (total > SHOWN)
+                .then(|| view! { <li class="more">{format!("and {} more", total - SHOWN)}</li> });
             view! { <ul class="remarks">{items} {more}</ul> }
         })
     }

@@ -326,7 +326,11 @@ impl LogState {
                 self.stage.set(Stage::Lost(why));
             }
             Answer::Ready(overview) => {
-                self.toasts.announce(format!("{} {}", many(overview.telegrams, "telegram"), overview.headline));
+                self.toasts.announce(format!(
+                    "{} {}",
+                    many(overview.telegrams, "telegram"),
+                    overview.headline
+                ));
                 self.overview.set(Some(Arc::new(overview)));
                 self.stage.set(Stage::Ready);
             }
@@ -337,7 +341,9 @@ impl LogState {
                 }
                 self.findings.set(findings);
                 // The reader knows nothing yet of what the list has.
-                if self.only.get_untracked() || self.filter.with_untracked(|filter| *filter != Filter::default()) {
+                if self.only.get_untracked()
+                    || self.filter.with_untracked(|filter| *filter != Filter::default())
+                {
                     let state = *self;
                     Timeout::new(0, move || state.list()).forget();
                 }

@@ -171,7 +171,8 @@ impl ReadState {
             };
             let before = before.flatten();
             let same = |(old, was): &(Given, How)| {
-                let devices = How { device: how.device.clone(), settings: how.settings.clone(), ..was.clone() };
+                let devices =
+                    How { device: how.device.clone(), settings: how.settings.clone(), ..was.clone() };
                 *old == given && devices == how
             };
             match (&given, &before) {
@@ -467,7 +468,8 @@ fn read(text: &str, options: Options) -> Report {
         return decode(text, options);
     }
     // What is no log at all is still looked at, line by line.
-    decode_file(text.as_bytes(), &Reading::default(), options.clone()).unwrap_or_else(|_| decode(text, options))
+    decode_file(text.as_bytes(), &Reading::default(), options.clone())
+        .unwrap_or_else(|_| decode(text, options))
 }
 
 fn options(choices: &Choices, devices: DeviceSettings) -> Options {
@@ -489,7 +491,6 @@ fn first_of_interest(report: &Report) -> usize {
 
 /// Tells texts apart (FNV-1a).
 fn hash(text: &str) -> u64 {
-    text.bytes().fold(0xCBF2_9CE4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3)
-    })
+    text.bytes()
+        .fold(0xCBF2_9CE4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3))
 }

@@ -3,6 +3,7 @@
 use leptos::prelude::*;
 
 use super::ReadState;
+use crate::address::{View, href};
 use crate::components::byte_strip::{ByteStrip, Lights, blocks};
 use crate::components::causes::Causes;
 use crate::components::check_result::CheckResult;
@@ -14,7 +15,6 @@ use crate::components::problems::Problems;
 use crate::components::registers::Registers;
 use crate::components::structure::Structure;
 use crate::components::telegram::Shown;
-use crate::address::{View, href};
 use buslens::field::{Direction, Message};
 use buslens::tool::{Certainty, Profile};
 
@@ -23,9 +23,8 @@ use buslens::tool::{Certainty, Profile};
 pub fn Telegrams() -> impl IntoView {
     let read = expect_context::<ReadState>();
     let lights = read.lights;
-    let blocks = Memo::new(move |_| {
-        read.shown().map_or(Vec::new(), |shown| blocks(&shown.detail, shown.bytes()))
-    });
+    let blocks =
+        Memo::new(move |_| read.shown().map_or(Vec::new(), |shown| blocks(&shown.detail, shown.bytes())));
     let rows =
         Memo::new(move |_| read.shown().map_or(Vec::new(), |shown| rows(&shown.detail, shown.bytes())));
     let wrong = Memo::new(move |_| read.shown().is_some_and(|shown| !shown.causes.is_empty()));

@@ -62,7 +62,7 @@ pub fn Paper(
         <article class="paper" aria-label="What is printed">
             {head}
             <Show
-                when=move || (count.get() > 0)
+                when=move || count.get() != 0
                 fallback=|| view! { <p>"Nothing to print yet. Paste telegrams in Read first."</p> }
             >
                 {table}

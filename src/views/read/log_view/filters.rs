@@ -24,7 +24,9 @@ pub fn Filters(folded: RwSignal<bool>) -> impl IntoView {
         waiting.set_value(Some(Timeout::new(PAUSE, find)));
     };
     let place = move || {
-        log.current.with_untracked(|current| current.as_ref().and_then(|it| it.told.place)).unwrap_or_default()
+        log.current
+            .with_untracked(|current| current.as_ref().and_then(|it| it.told.place))
+            .unwrap_or_default()
     };
     let step = move |forwards: bool| log.ask(Request::Show(Which::Wrong { from: place(), forwards }));
     let wrong = move || log.overview.with(|it| it.as_ref().map_or(0, |it| it.wrong));
@@ -92,7 +94,8 @@ pub fn Filters(folded: RwSignal<bool>) -> impl IntoView {
 #[component]
 fn Wanteds() -> impl IntoView {
     let log = expect_context::<ReadState>().log;
-    let wanted = Wanted::ALL.iter().filter(|it| **it != Wanted::All).map(|it| (it.key(), it.label())).collect();
+    let wanted =
+        Wanted::ALL.iter().filter(|it| **it != Wanted::All).map(|it| (it.key(), it.label())).collect();
     let value = move || {
         log.filter.with(|filter| match filter.wanted {
             Wanted::All => String::new(),

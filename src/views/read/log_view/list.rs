@@ -79,7 +79,8 @@ pub fn List() -> impl IntoView {
     let rows = move || log.rows.with(|(from, rows)| (*from..).zip(rows.iter().cloned()).collect::<Vec<_>>());
     let keys = move |event: KeyboardEvent| {
         let Some(last) = log.total.get_untracked().checked_sub(1) else { return };
-        let page = list.get_untracked().map_or(10, |list| list.client_height() as usize / high.get_untracked());
+        let page =
+            list.get_untracked().map_or(10, |list| list.client_height() as usize / high.get_untracked());
         let at = place.get_untracked().unwrap_or_default();
         let to = match event.key().as_str() {
             "ArrowDown" => at + 1,
@@ -93,7 +94,15 @@ pub fn List() -> impl IntoView {
         event.prevent_default();
         log.select(to.min(last));
     };
-    let heads = [("n", "#"), ("t", "Time"), ("d", "Δ ms"), ("u", "Unit"), ("a", ""), ("s", "What it says"), ("st", "State")];
+    let heads = [
+        ("n", "#"),
+        ("t", "Time"),
+        ("d", "Δ ms"),
+        ("u", "Unit"),
+        ("a", ""),
+        ("s", "What it says"),
+        ("st", "State"),
+    ];
     let heads = heads.map(|(class, title)| {
         view! {
             <span role="columnheader" class=class>
@@ -230,4 +239,3 @@ fn ListRow(place: usize, row: Row) -> impl IntoView {
         </div>
     }
 }
-

@@ -14,7 +14,9 @@ pub fn Overview() -> impl IntoView {
     let log = expect_context::<ReadState>().log;
     let headline = move || log.overview.with(|it| it.as_ref().map(|it| it.headline.clone()));
     let fault = move || {
-        log.overview.with(|it| it.as_ref()?.fault.clone()).map(|fault| view! { <p class="refused">{fault}</p> })
+        log.overview
+            .with(|it| it.as_ref()?.fault.clone())
+            .map(|fault| view! { <p class="refused">{fault}</p> })
     };
     let units = move || log.overview.with(|it| it.as_ref().map_or(Vec::new(), |it| it.units.clone()));
     let unit = move |unit: Unit| {
@@ -113,10 +115,12 @@ fn Findings() -> impl IntoView {
         let findings = log.findings.get();
         if findings.is_empty() {
             // Nothing is wrong that has a name: the sentences of the story are what there is to say.
-            let sentences: Vec<_> = story().into_iter().skip(1).map(|text| view! { <li>{text}</li> }).collect();
+            let sentences: Vec<_> =
+                story().into_iter().skip(1).map(|text| view! { <li>{text}</li> }).collect();
             return view! { <ul class="findings none note">{sentences}</ul> }.into_any();
         }
         let findings = findings.into_iter().enumerate().map(finding).collect_view();
-        view! { <ol class="findings" aria-label="What is wrong, as far as the log tells">{findings}</ol> }.into_any()
+        view! { <ol class="findings" aria-label="What is wrong, as far as the log tells">{findings}</ol> }
+            .into_any()
     }
 }

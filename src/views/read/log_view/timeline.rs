@@ -82,9 +82,7 @@ pub fn Timeline() -> impl IntoView {
         event.prevent_default();
         at.set(to);
     };
-    let zoomed = move || {
-        log.filter.with(|filter| filter.times.is_some() || filter.places.is_some())
-    };
+    let zoomed = move || log.filter.with(|filter| filter.times.is_some() || filter.places.is_some());
     let names = move || {
         log.lanes.with(|lanes| {
             lanes
@@ -115,9 +113,9 @@ pub fn Timeline() -> impl IntoView {
         Some(view! { <span class="band" style:left=percent(from) style:width=percent(to - from)></span> })
     };
     let shown = move || {
-        let row_time = log.current.with(|current| {
-            current.as_ref().map(|current| (current.told.row.time, current.told.row.index))
-        });
+        let row_time = log
+            .current
+            .with(|current| current.as_ref().map(|current| (current.told.row.time, current.told.row.index)));
         log.lanes.with(|lanes| {
             let (time, index) = row_time?;
             let at = if lanes.timed { time? } else { index as i64 };

@@ -81,8 +81,19 @@ fn Units() -> impl IntoView {
             </tr>
         }
     };
-    let heads =
-        ["Unit", "Line", "Functions", "Requests", "Answered", "Unanswered", "Retries", "Refused", "Damaged", "Usually", "At worst"];
+    let heads = [
+        "Unit",
+        "Line",
+        "Functions",
+        "Requests",
+        "Answered",
+        "Unanswered",
+        "Retries",
+        "Refused",
+        "Damaged",
+        "Usually",
+        "At worst",
+    ];
     let heads = heads.map(|head| view! { <th scope="col">{head}</th> });
     view! {
         <div class="wide" tabindex="0" role="region" aria-label="Units and functions">
@@ -225,7 +236,8 @@ fn UnreadLines() -> impl IntoView {
         if unread.lines.is_empty() {
             return Some(view! { <p class="note">"Every line has bytes."</p> }.into_any());
         }
-        let more = (unread.more > 0).then(|| view! { <p class="note">{format!("and {} more", unread.more)}</p> });
+        let more =
+            (unread.more > 0).then(|| view! { <p class="note">{format!("and {} more", unread.more)}</p> });
         let line = |(number, text): (u32, String)| {
             view! {
                 <li value=number.to_string()>
