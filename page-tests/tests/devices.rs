@@ -78,9 +78,9 @@ async fn parameters_are_found_by_name_and_number() -> Result {
     assert_eq!(page.value(typed).await?, json!("no such thing"));
     page.press(Key::Escape + "").await?;
     page.picture("devices-desktop-dark").await?;
-    page.choose_in("Width of 0001h", "32 bit").await?;
+    page.choose_in("Width of read register 0001h", "32 bit").await?;
     page.until(CHANGES, "Registers 0001h and 0002h read Status word (Sy.51), 32 bit.").await?;
-    page.press_button("Remove 0000h").await?;
+    page.press_button("Remove read register 0000h").await?;
     page.until(CHANGES, "Registers 0000h and 0001h read Status word (Sy.51), 32 bit.").await?;
     page.close().await
 }

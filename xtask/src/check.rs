@@ -4,14 +4,16 @@ use std::path::Path;
 
 use crate::build::{self, Build};
 use crate::steps::{self, Result, Step};
-use crate::{page_tests, size, tools};
+use crate::{fuzz, page_tests, size, supply, tools};
 
 const STEPS: &[Step] = &[
     ("tools", tools),
     ("formatting", formatting),
     ("clippy", clippy),
     ("the library without the page's libraries", lean_library),
+    ("licences and sources of the libraries", supply::check),
     ("tests", tests),
+    ("random inputs", fuzz::short),
     ("examples and benchmarks compile", examples),
     ("documentation", documentation),
     ("the page", page),

@@ -4,10 +4,14 @@
 
 mod build;
 mod check;
+mod fuzz;
+mod mutants;
 mod page_tests;
+mod reproducible;
 mod server;
 mod size;
 mod steps;
+mod supply;
 mod tools;
 mod watch;
 
@@ -26,6 +30,11 @@ Usage: cargo xtask <command>
   serve [--port N]   builds with --dev, serves dist/ on this machine and rebuilds after each change
   test               runs every check, from the formatting to the page in a browser
   test page [NAME]   only tests dist/ as it is in a browser, or those tests that are called so
+  fuzz SECONDS [--seed N] [--only TARGET]
+                     tries random inputs against the library's laws; --replay FILE tries one again
+  mutants [--sample N] [--seed S]
+                     changes the code here and there, and counts the changes that no test notices
+  reproducible       builds the page in two folders and compares every byte
   --help             this text";
 
 fn main() -> ExitCode {
@@ -40,10 +49,13 @@ fn main() -> ExitCode {
         ["build", "--dev"] => |_| build::run(Build::Dev),
         ["serve"] | ["serve", "--port", _] => watch::serve,
         ["test"] => |_| check::run(),
-        ["test", "page", ..] => return finish(go_to_root().and_then(|()| page_tests::run(&words[2..]))),
+        ["test", "page", ..] => return done(go_to_root().and_then(|()| page_tests::run(&words[2..]))),
+        ["fuzz", ref arguments @ ..] => return done(go_to_root().and_then(|()| fuzz::run(arguments))),
+        ["mutants", ref arguments @ ..] => return done(go_to_root().and_then(|()| mutants::run(arguments))),
+        ["reproducible"] => |_| reproducible::check(),
         // Started by `test` itself, see page_tests.rs.
         [page_tests::KEEP_DRIVER, driver] => return page_tests::keep_driver(driver),
-        [command @ ("build" | "serve" | "test"), ..] => {
+        [command @ ("build" | "serve" | "test" | "reproducible"), ..] => {
             return refuse(&format!("`{command}` is not followed by that."));
         }
         [unknown, ..] => return refuse(&format!("There is no command `{unknown}`.")),
@@ -52,11 +64,11 @@ fn main() -> ExitCode {
         return refuse(&format!("`{}` is not a port: 1 to 65535.", words[2]));
     };
 
-    finish(go_to_root().and_then(|()| work(port.get())))
+    done(go_to_root().and_then(|()| work(port.get())))
 }
 
-fn finish(done: Result) -> ExitCode {
-    match done {
+fn done(result: Result) -> ExitCode {
+    match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(sentence) => {
             eprintln!("\n{sentence}");

@@ -72,6 +72,31 @@ pub fn component(name: &str) -> Result {
     })
 }
 
+/// A program of this name and version from the registry of Rust, compiled where it is missing, which takes
+/// minutes. It stays inside Cargo's target folder.
+pub fn installed(name: &str, version: &str) -> Result<PathBuf> {
+    let folder = target_folder().join("tools");
+    let program = folder.join("bin").join(format!("{name}{}", std::env::consts::EXE_SUFFIX));
+    // Cargo notes what it installed.
+    let noted = format!("\"{name} {version} (");
+    let there = || {
+        let notes = std::fs::read_to_string(folder.join(".crates.toml"));
+        program.is_file() && notes.is_ok_and(|notes| notes.contains(&noted))
+    };
+    if !there() {
+        println!("Compiling {name} {version}; this happens once and takes minutes.");
+        let wanted = format!("{name}@{version}");
+        let mut install = cargo();
+        install.args(["install", "--quiet", "--locked", "--root"]).arg(&folder).arg(wanted);
+        steps::run(&mut install)?;
+    }
+    if there() {
+        std::path::absolute(&program).map_err(|error| format!("{}: {error}.", program.display()))
+    } else {
+        Err(format!("{} is not of version {version}.", program.display()))
+    }
+}
+
 /// A browser and the program that drives it.
 pub struct Browser {
     pub chromium: PathBuf,

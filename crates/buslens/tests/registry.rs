@@ -4,10 +4,13 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use buslens::field::Direction;
+use buslens::field::{self, Direction, Value};
+use buslens::frame::profibus_fdl::Fdl;
 use buslens::modbus::{DIALECTS, KINDS, OTHER_KINDS};
+use buslens::profibus;
 use buslens::tool::examples::{EXAMPLES, Group};
 use buslens::tool::{Options, PROFILES, Verdict, decode};
+use buslens::walk::{self, Deviations};
 
 /// Files below `src/modbus` that are no function code.
 const SHARED: &[&str] = &["bare", "choice", "coils", "dialects", "file_records", "length", "registers"];
@@ -91,4 +94,77 @@ fn every_function_code_has_an_example_and_the_broken_ones_are_broken() {
     }
     let listed: BTreeSet<u8> = KINDS.iter().map(|kind| kind.function).collect();
     assert_eq!(functions, listed);
+}
+
+/// The numbers of the standard (V1.1b3, 6.8.1), each with its own meaning.
+#[test]
+fn the_diagnostics_are_those_of_the_standard() {
+    let said = |number: u16, direction: Direction| {
+        let kind = KINDS.iter().find(|kind| kind.function == 8 && kind.direction == direction).unwrap();
+        let mut pdu = kind.pdu(DIALECTS[0]);
+        let [high, low] = number.to_be_bytes();
+        let fields = walk::read(&mut pdu, &[8, high, low, 0, 0]).fields;
+        field::leaves(&fields)
+            .into_iter()
+            .filter_map(|leaf| match leaf.value {
+                Value::Selector { chosen, .. } => Some(chosen.label.to_owned()),
+                _ => None,
+            })
+            .nth(1)
+            .unwrap()
+    };
+    let names = [
+        (0, "return query data"),
+        (1, "restart communications"),
+        (2, "return diagnostic register"),
+        (3, "change ASCII input delimiter"),
+        (4, "force listen only mode"),
+        (10, "clear counters"),
+        (11, "return bus message count"),
+        (12, "return bus communication error count"),
+        (13, "return bus exception error count"),
+        (14, "return server message count"),
+        (15, "return server no response count"),
+        (16, "return server NAK count"),
+        (17, "return server busy count"),
+        (18, "return bus character overrun count"),
+        (20, "clear overrun counter"),
+    ];
+    for number in 0..=u16::MAX {
+        let name =
+            names.iter().find(|(known, _)| *known == number).map_or("sub-function not known", |it| it.1);
+        for direction in [Direction::Request, Direction::Response] {
+            assert_eq!(said(number, direction), name, "{number}");
+        }
+    }
+}
+
+/// Who builds a telegram gets one that does no harm and is for the usual ends of the line.
+#[test]
+fn new_telegrams_are_harmless() {
+    for kind in profibus::KINDS.iter().chain(profibus::OTHER_KINDS) {
+        let fdl = Fdl::new(kind, &profibus::Settings::default());
+        let [to, from] = [fdl.destination, fdl.source].map(|address| address & 0x7F);
+        let ends = if kind.direction == Direction::Request { (1, 2) } else { (2, 1) };
+        assert_eq!((to, from), ends, "{}", kind.spec.key);
+        assert_eq!(fdl.destination & 0x80 != 0, kind.sap.is_some(), "{}", kind.spec.key);
+        assert_eq!(fdl.source & 0x80 != 0, kind.sap.is_some(), "{}", kind.spec.key);
+    }
+    let settings = profibus::Settings { ident: Some(0x05EB), ..profibus::Settings::default() };
+    let written = |sap: u8| {
+        let kind = profibus::Kind::of(Some(sap), Direction::Request);
+        walk::write((kind.new)(&settings).as_mut(), &Deviations::default())
+    };
+    assert_eq!(written(55), [1, 0x05, 0xEB, 0], "its address can be changed again");
+    assert_eq!(written(58), [0, 0], "no command for anybody");
+    for kind in KINDS.iter().filter(|kind| kind.direction == Direction::Request) {
+        let pdu = walk::write(&mut kind.pdu(DIALECTS[0]), &Deviations::default());
+        let data = match kind.function {
+            // Where it writes something, that is 0.
+            5 | 6 | 15 | 16 | 101 => &pdu[1..],
+            _ => &[],
+        };
+        let counts: usize = data.iter().map(|byte| usize::from(*byte)).sum();
+        assert!(counts <= 6, "{}: {pdu:02X?}", kind.spec.key);
+    }
 }

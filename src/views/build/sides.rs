@@ -125,8 +125,17 @@ pub fn ReplySide() -> impl IntoView {
     });
     let normal = Signal::derive(move || state.reply.get() == 0);
     let switch = Callback::new(move |normal: bool| state.reply.set(usize::from(!normal)));
+    let list = NodeRef::<html::Ol>::new();
+    let keys = move |event: KeyboardEvent| {
+        let to = list.get_untracked().and_then(|list| roving::follow(&event, &list, "button"));
+        if let Some(at) = to {
+            // The first of all replies is no exception.
+            state.reply.set(at + 1);
+        }
+    };
     let row = move |(index, reply): (usize, Reply)| {
         let here = move || state.reply.get() == index;
+        let is_stop = move || state.reply.get().max(1) == index;
         view! {
             <li class:chosen=here>
                 <button type="button" aria-pressed=move || here().to_string() on:click=move |_| state.reply.set(index)>

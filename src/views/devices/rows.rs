@@ -57,6 +57,17 @@ fn place(place: u16, mapping: bool) -> String {
     if mapping { hex_value(place.into(), 2) } else { place.to_string() }
 }
 
+/// A row for screen readers, which meet several lists: "input word 1".
+fn spoken(list: List, place: &str) -> String {
+    let kind = match list {
+        List::ReadMapping => "read register",
+        List::WriteMapping => "written register",
+        List::ProcessOutput => "output word",
+        List::ProcessInput => "input word",
+    };
+    format!("{kind} {place}")
+}
+
 /// The parameter of a row in a few words.
 fn named(address: u16) -> String {
     match setup::parameter(address) {
@@ -84,6 +95,7 @@ fn TableRow(list: List, index: usize, row: Row, mapping: bool) -> impl IntoView 
         }
         .into_any();
     }
+    let spoken = spoken(list, &place);
     let set = move |parameter: u16, sets: u8, words: u8| state.set_row(list, index, parameter, sets, words);
     let choose =
         Callback::new(move |parameter: Parameter| set(parameter.address, row.sets.max(1), parameter.words));
@@ -92,15 +104,15 @@ fn TableRow(list: List, index: usize, row: Row, mapping: bool) -> impl IntoView 
         <tr>
             <td class="mono">{place.clone()}</td>
             <td>
-                <ParameterField label=format!("Parameter of {place}") shown=named(row.parameter) on_choose=choose />
+                <ParameterField label=format!("Parameter of {spoken}") shown=named(row.parameter) on_choose=choose />
             </td>
             <td>
-                <Sets sets=row.sets place=place.clone() on_set=Callback::new(move |sets| set(row.parameter, sets, row.words)) />
+                <Sets sets=row.sets place=spoken.clone() on_set=Callback::new(move |sets| set(row.parameter, sets, row.words)) />
             </td>
             <td>
                 <select
                     class="select"
-                    aria-label=format!("Width of {place}")
+                    aria-label=format!("Width of {spoken}")
                     on:change=move |event| {
                         set(row.parameter, row.sets, event_target_value(&event).parse().unwrap_or(1));
                     }
@@ -115,7 +127,7 @@ fn TableRow(list: List, index: usize, row: Row, mapping: bool) -> impl IntoView 
                 <button
                     type="button"
                     class="button plain low icon-only"
-                    aria-label=format!("Remove {place}")
+                    aria-label=format!("Remove {spoken}")
                     on:click=move |_| state.remove_row(list, index)
                 >
                     <Icon glyph=Glyph::Close />
@@ -270,7 +282,7 @@ fn Start(list: List) -> impl IntoView {
                 class="input mono"
                 autocomplete="off"
                 spellcheck="false"
-                aria-label="Start register of the list"
+                aria-label=if list == List::ReadMapping { "First read register" } else { "First written register" }
                 aria-invalid=move || misfit.with(Option::is_some).to_string()
                 prop:value=text
                 on:input=move |event| state.edit(path, &Edit::Enter(event_target_value(&event)))

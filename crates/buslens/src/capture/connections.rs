@@ -13,6 +13,12 @@ pub struct Connection {
     pub server: SocketAddr,
 }
 
+impl Connection {
+    fn ports(&self) -> [u16; 2] {
+        [self.client.port(), self.server.port()]
+    }
+}
+
 /// What one end of a connection sent, in order.
 #[derive(Debug)]
 pub struct Segment<'a> {
@@ -21,6 +27,8 @@ pub struct Segment<'a> {
     /// Number of the connection, from 0.
     pub connection: usize,
     pub from_client: bool,
+    /// The ports of client and server.
+    pub ports: [u16; 2],
     /// Where in the file the packet is that it came in.
     pub offset: u64,
     /// The line of a text that the packet begins in; 0 in a file of packets.
@@ -39,6 +47,8 @@ pub struct Connections {
     known: HashMap<(SocketAddr, SocketAddr), usize>,
     /// Both directions of each connection, the client's first.
     ways: Vec<[Way; 2]>,
+    /// How many more there were than are kept.
+    left_out: usize,
 }
 
 /// One direction of a connection.
@@ -64,8 +74,11 @@ struct Held {
 const MOST_HELD: usize = 64;
 const MOST_HELD_BYTES: usize = 1 << 18;
 
-/// More connections than this share the number of the last one.
-const MOST: usize = 60_000;
+/// So many connections are kept, so that their numbers take two bytes; more are only counted.
+pub const MOST: usize = 60_000;
+
+/// The number of a connection that is not kept.
+const LEFT_OUT: usize = usize::MAX;
 
 /// The usual port of Modbus TCP.
 const MODBUS: u16 = 502;
@@ -73,6 +86,11 @@ const MODBUS: u16 = 502;
 impl Connections {
     pub fn list(&self) -> &[Connection] {
         &self.list
+    }
+
+    /// How many connections there are beyond those of the [`list`](Self::list).
+    pub fn left_out(&self) -> usize {
+        self.left_out
     }
 
     /// Takes a TCP segment.
@@ -88,13 +106,17 @@ impl Connections {
         // The same ends open a new connection only with another first number.
         let fresh = opens
             && self.known.get(&(from, to)).is_some_and(|known| {
-                self.ways[*known][0].next.is_some_and(|next| next != number.wrapping_add(1))
+                self.ways
+                    .get(*known)
+                    .is_some_and(|ways| ways[0].next.is_some_and(|next| next != number.wrapping_add(1)))
             });
         if fresh && let Some(known) = self.known.remove(&(from, to)) {
             self.known.remove(&(to, from));
             self.flush(known, sink);
         }
-        let (connection, from_client) = self.connection(from, to, opens, tcp.syn() && tcp.ack());
+        let Some((connection, from_client)) = self.connection(from, to, opens, tcp.syn() && tcp.ack()) else {
+            return;
+        };
         let way = usize::from(!from_client);
         if tcp.syn() {
             self.ways[connection][way].next = Some(number.wrapping_add(1));
@@ -116,12 +138,13 @@ impl Connections {
         if payload.is_empty() {
             return;
         }
-        let (connection, from_client) = self.connection(from, to, false, false);
+        let Some((connection, from_client)) = self.connection(from, to, false, false) else { return };
         let Packet { time, offset, line, .. } = *packet;
         sink(Segment {
             time,
             connection,
             from_client,
+            ports: self.list[connection].ports(),
             offset,
             line,
             bytes: payload,
@@ -137,10 +160,17 @@ impl Connections {
         }
     }
 
-    /// The number of the connection between two ends, and whether `from` is its client.
-    fn connection(&mut self, from: SocketAddr, to: SocketAddr, opens: bool, accepts: bool) -> (usize, bool) {
+    /// The number of the connection between two ends, and whether `from` is its client; `None` if it
+    /// is one too many.
+    fn connection(
+        &mut self,
+        from: SocketAddr,
+        to: SocketAddr,
+        opens: bool,
+        accepts: bool,
+    ) -> Option<(usize, bool)> {
         if let Some(known) = self.known.get(&(from, to)) {
-            return (*known, self.list[*known].client == from);
+            return Some((*known, self.list.get(*known)?.client == from));
         }
         let from_client = match () {
             () if opens => true,
@@ -149,15 +179,17 @@ impl Connections {
             () => from.port() >= to.port(),
         };
         let (client, server) = if from_client { (from, to) } else { (to, from) };
-        let number = self.list.len().min(MOST);
-        if number < MOST {
-            self.list.push(Connection { client, server });
-            self.ways.push(Default::default());
-        }
-        let number = number.min(self.list.len() - 1);
+        let fresh = self.list.len();
+        let number = if fresh < MOST { fresh } else { LEFT_OUT };
         self.known.insert((from, to), number);
         self.known.insert((to, from), number);
-        (number, from_client)
+        if number == LEFT_OUT {
+            self.left_out += 1;
+            return None;
+        }
+        self.list.push(Connection { client, server });
+        self.ways.push(Default::default());
+        Some((number, from_client))
     }
 
     /// Takes bytes whose first has this sequence number.
@@ -192,6 +224,7 @@ impl Connections {
                 time,
                 connection,
                 from_client,
+                ports: self.list[connection].ports(),
                 offset,
                 line,
                 bytes: fresh,
@@ -219,6 +252,7 @@ impl Connections {
                     time,
                     connection,
                     from_client: way == 0,
+                    ports: self.list[connection].ports(),
                     offset,
                     line,
                     bytes: fresh,
@@ -242,6 +276,7 @@ impl Connections {
             time,
             connection,
             from_client: way == 0,
+            ports: self.list[connection].ports(),
             offset,
             line,
             bytes: &bytes,

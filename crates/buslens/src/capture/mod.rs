@@ -72,6 +72,11 @@ impl Capture {
     pub fn connections(&self) -> &[Connection] {
         self.connections.list()
     }
+
+    /// How many connections there are beyond those that are kept: they are not read.
+    pub fn left_out(&self) -> usize {
+        self.connections.left_out()
+    }
 }
 
 /// Takes what a packet carries.

@@ -174,6 +174,9 @@ struct Interface {
     offset: i64,
 }
 
+/// Microseconds in 35,000 years: a time further away is none, and differences of others fit.
+const FURTHEST: u64 = 1 << 60;
+
 /// No block is longer: a length above is a sign of damage.
 const LONGEST: usize = 1 << 26;
 
@@ -310,10 +313,10 @@ impl Packets {
                 };
                 self.packets += 1;
                 if let Some(Interface { link, units, offset: since }) = interface {
-                    let micros =
-                        i64::try_from(u128::from(stamp) * 1_000_000 / u128::from(units)).unwrap_or(i64::MAX);
+                    let micros = i128::from(stamp) * 1_000_000 / i128::from(units);
                     let simple = matches!(parsed, Block::SimplePacket(_));
-                    let time = (!simple).then(|| micros.saturating_add(since.saturating_mul(1_000_000)));
+                    let time = i64::try_from(micros + i128::from(since) * 1_000_000).ok();
+                    let time = time.filter(|time| !simple && time.unsigned_abs() < FURTHEST);
                     sink(Packet { time, offset, line: 0, link, bytes: data });
                 }
             }

@@ -249,9 +249,9 @@ impl Profile {
             if let Some(block) = block.filter(|block| *block < area.count.into() && label.contains(words)) {
                 // Fewer than there are blocks, so it fits.
                 let from = area.from + block as u16 * area.stride;
-                found.push((from, from + area.stride - 1));
+                found.push((from, from + (area.stride - 1)));
             } else if label.contains(&name) {
-                found.push((area.from, area.from + (area.stride * area.count).max(1) - 1));
+                found.push((area.from, area.last()));
             }
         }
         found

@@ -4,12 +4,14 @@
 //! Nothing here knows a protocol, and nothing here imports anything else of this crate.
 
 mod bits;
+mod facts;
 mod message;
 mod problem;
 mod spec;
 mod value;
 
 pub use bits::Bits;
+pub use facts::Facts;
 pub use message::{Argument, Message};
 pub use problem::{Problem, Severity};
 pub use spec::{Format, Name, Order, Role, Spec};
@@ -41,14 +43,19 @@ impl Span {
         Self::new(self.from + by, self.to + by)
     }
 
+    /// As much of it as lies in the first `length` bytes.
+    pub fn within(self, length: usize) -> Self {
+        Self::new(self.from.min(length), self.to.min(length))
+    }
+
     pub const fn contains(self, position: usize) -> bool {
         self.from <= position && position < self.to
     }
 
     /// The bytes of `whole` that the span names; what lies outside of `whole` is left out.
     pub fn of<T>(self, whole: &[T]) -> &[T] {
-        let to = self.to.min(whole.len());
-        &whole[self.from.min(to)..to]
+        let Self { from, to } = self.within(whole.len());
+        &whole[from.min(to)..to]
     }
 }
 

@@ -76,6 +76,8 @@ mod tests {
         assert_eq!(characters(&bytes), ":020300C800052E\r\n");
         assert_eq!(from_characters(b":020300C800052E\r\n"), Some(bytes.to_vec()));
         assert_eq!(from_characters(b":020300c800052e"), Some(bytes.to_vec()));
+        // The shortest that there is: unit, function, check.
+        assert_eq!(from_characters(b":0507F4\r\n"), Some(vec![0x05, 0x07, 0xF4]));
         for not in [&b"020300C800052E"[..], b":0203", b":020300C800052", b":0203 00C8", b""] {
             assert_eq!(from_characters(not), None);
         }

@@ -92,6 +92,12 @@ impl Rule {
         pdu.get(usize::from(self.at)).map(|count| usize::from(self.base) + usize::from(count & self.counts))
     }
 
+    /// Whether bytes behind `pdu` could tell the length that those of `pdu` do not.
+    #[cold]
+    pub fn can_be_told(&self, pdu: &[u8]) -> bool {
+        self.unusual.is_none_or(|length| length.can_be_told(pdu))
+    }
+
     /// See [`Length::fits`].
     #[inline]
     pub fn fits(&self, pdu: &[u8]) -> bool {

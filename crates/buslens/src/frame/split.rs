@@ -126,6 +126,23 @@ impl Splitter {
         self.rule(*function).map_or([None, None], |rules| [whole(&rules.request), whole(&rules.response)])
     }
 
+    /// Whether an RTU frame that begins so may be longer than `bytes`.
+    pub fn is_beginning(&self, bytes: &[u8]) -> bool {
+        let whole = self.rtu_lengths(bytes);
+        let known = bytes.get(1).is_some_and(|function| self.knows(*function));
+        let told = |length: usize| length > bytes.len();
+        let untold = || match self.rule(bytes[1]) {
+            Some(rules) => [&rules.request, &rules.response]
+                .into_iter()
+                .zip(whole)
+                .any(|(rule, length)| length.is_none() && is_to_be_told(rule, bytes)),
+            None => false,
+        };
+        known
+            && bytes.len() < modbus_rtu::RTU.longest()
+            && (whole.into_iter().flatten().any(told) || untold())
+    }
+
     /// The other length with which an RTU frame that is right with `length` is right, too.
     #[cold]
     pub fn other_length(&self, bytes: &[u8], length: usize) -> Option<usize> {
@@ -172,6 +189,9 @@ impl Splitter {
         let fits = |awaited: Waiting| {
             answers.is_some_and(|it| awaited.length.is_none_or(|length| usize::from(length) == it))
         };
+        if awaited.is_some() && answers.is_none() && !last && is_to_be_told(response, bytes) {
+            return more;
+        }
         if awaited.is_some_and(fits) {
             // No telegram is longer than the one that is awaited, and none has another length.
             return match answered() {
@@ -201,11 +221,26 @@ impl Splitter {
         }
         let [_, _, _, _, high, low, _, function, ..] = *bytes else { return more };
         let length = 6 + usize::from(u16::from_be_bytes([high, low]));
-        if length <= modbus_tcp::HEADER || length > modbus_tcp::LONGEST || !self.knows(function) {
+        if length <= modbus_tcp::HEADER || length > modbus_tcp::LONGEST || function & !EXCEPTION == 0 {
+            return Begins::Nothing;
+        }
+        let known = self.knows(function);
+        if !known && !place.in_step {
             return Begins::Nothing;
         }
         if bytes.len() < length {
             return more;
+        }
+        // The header tells that it is a telegram, whatever its function; but then it ends where the bytes do, or
+        // another header follows.
+        if !known {
+            let next = &bytes[length..];
+            let next_is_zero = next.iter().skip(2).take(2).all(|byte| *byte == 0);
+            return match next_is_zero {
+                true if last || next.len() >= 4 => Begins::Telegram(length),
+                true => more,
+                false => Begins::Nothing,
+            };
         }
         let fits = self.sides(&bytes[modbus_tcp::HEADER..length]) != [false, false];
         if fits || place.in_step { Begins::Telegram(length) } else { Begins::Nothing }
@@ -217,6 +252,7 @@ fn fdl(place: Place<'_>) -> Begins {
     let Place { bytes, last, in_step, .. } = place;
     let more = if last { Begins::Nothing } else { Begins::More };
     match (Fdl::length(bytes), bytes.first()) {
+        (None, None) => more,
         (None, Some(&profibus_fdl::SD2)) if bytes.len() < 4 => more,
         (None, _) => Begins::Nothing,
         (Some(length), Some(&(SC | SD4))) => match in_step {
@@ -233,12 +269,19 @@ fn fdl(place: Place<'_>) -> Begins {
 /// Unit and check of an RTU frame.
 const AROUND: usize = modbus_rtu::RTU.around();
 
+/// Whether the length of the frame that begins with `bytes` may be told by what follows them.
+#[cold]
+fn is_to_be_told(rule: &Rule, bytes: &[u8]) -> bool {
+    bytes.len() < modbus_rtu::RTU.longest() && rule.can_be_told(&bytes[1..])
+}
+
 /// Whether a frame of `length` begins `bytes` whose PDU is of the length `rule` and whose check is
 /// right.
 #[inline]
 fn right(bytes: &[u8], length: Option<usize>, rule: Option<&Rule>, more: Begins) -> Begins {
-    // Nothing tells how long it is: it cannot be told from what follows, unless bytes are missing.
-    let Some(length) = length else { return if bytes.len() < 12 { more } else { Begins::Nothing } };
+    let Some(length) = length else {
+        return if rule.is_some_and(|rule| is_to_be_told(rule, bytes)) { more } else { Begins::Nothing };
+    };
     if length > modbus_rtu::RTU.longest() || length < modbus_rtu::RTU.shortest() {
         return Begins::Nothing;
     }

@@ -50,6 +50,17 @@ impl Length {
         }
     }
 
+    /// Whether bytes behind `bytes`, which do not tell the length yet, could tell it.
+    pub fn can_be_told(self, bytes: &[u8]) -> bool {
+        match self {
+            Self::Fixed(_) | Self::Counted { .. } | Self::CountedByTwo { .. } | Self::Listed { .. } => true,
+            Self::Chosen { at, width, by } => {
+                number(bytes, at, width).is_none_or(|chosen| by(chosen).can_be_told(bytes))
+            }
+            Self::Units { .. } | Self::Open => false,
+        }
+    }
+
     /// Whether `bytes` can be a whole PDU of this length.
     pub fn fits(self, bytes: &[u8]) -> bool {
         let whole = |from: usize, unit: usize| {
@@ -106,6 +117,8 @@ mod tests {
         assert!(chosen.fits(&[43, 14, 1, 0]));
         assert!(!chosen.fits(&[43, 14, 1]));
         assert!(chosen.fits(&[43, 99]));
+        assert!(chosen.can_be_told(&[43]) && chosen.can_be_told(&[43, 14]) && !chosen.can_be_told(&[43, 99]));
+        assert!(listed.can_be_told(&[43, 2, 0, 3]) && !units.can_be_told(&[100]));
         assert!(!chosen.fits(&[43]));
     }
 }

@@ -297,8 +297,19 @@ impl Pdu {
         self.asked = access.write.then(|| (access.start, access.count, access.values.to_vec()));
     }
 
-    /// The response that a healthy server would give, with zeros for what it reads.
-    pub fn reply(&mut self) -> Self {
+    /// The response that a healthy server would give, with zeros for what it reads; `None` if that is
+    /// more than a PDU can hold.
+    pub fn reply(&mut self) -> Option<Self> {
+        /// Function code and byte count.
+        const AROUND: usize = 2;
+        let reads = self.body.access().filter(|access| !access.write || access.reads.is_some());
+        if let Some((access, (_, count))) = reads.and_then(|access| Some((access, access.asked()?))) {
+            let bytes =
+                if access.table.holds_switches() { count.div_ceil(8) } else { count * access.table.width };
+            if bytes + AROUND > LONGEST_PDU {
+                return None;
+            }
+        }
         let mut reply = Self::expect(self.function, Direction::Response, self.dialect);
         reply.answer(self);
         // Most responses that read nothing repeat the request, or its beginning.
@@ -311,7 +322,7 @@ impl Pdu {
         if let Some(access) = self.body.access() {
             reply.body.reply(&access);
         }
-        reply
+        Some(reply)
     }
 
     /// The response of a server that refuses it.

@@ -87,7 +87,7 @@ impl Report {
             coils: false,
             registers: None,
             channel: None,
-            step: telegram.step.clone(),
+            step: None,
             device: Said::default(),
             fields: reading.fields,
         };
@@ -102,6 +102,7 @@ impl Report {
                 detail.registers = detail.register_place(pdu);
             }
             Content::Profibus { slave, kind, body } => {
+                detail.step = telegram.step.clone().map(|step| detail.placed(step, bytes.len()));
                 if let Some((profile, settings)) = device {
                     let who = match slave {
                         Some(slave) => message!("station {n}", n = slave),
@@ -130,8 +131,8 @@ impl Detail {
         }
         let registers = |access: &Access<'_>| access.start.is_some() && !access.table.holds_switches();
         let Some(access) = pdu.body.access().filter(registers) else { return };
-        let values = big_endian(&access);
-        let said = profile.registers(&device_registers(&access, &values, &self.fields), settings);
+        let values = big_endian(&access, self.given(&access).unwrap_or_default().len());
+        let said = profile.registers(&self.device_registers(&access, &values), settings);
         self.device.problems.extend(said.problems);
         self.device.blocks = said.blocks;
     }
@@ -178,9 +179,8 @@ impl Detail {
 
     /// Where the values of a PDU stand that are no coils.
     fn register_place(&self, pdu: &Pdu) -> Option<Span> {
-        let table = pdu.body.access().filter(|access| !access.table.holds_switches())?.table;
-        let of = |wanted: &'static Spec| self.place(|spec| std::ptr::eq(spec, wanted));
-        of(&table.values).or(of(&table.value)).filter(|span| span.len() >= 2)
+        let access = pdu.body.access().filter(|access| !access.table.holds_switches())?;
+        self.given(&access).filter(|span| span.len() >= 2)
     }
 
     fn ask_parameter(&self, profile: &'static Profile, channel: &Channel) -> Said {
@@ -189,12 +189,24 @@ impl Detail {
             Service::Write => device::Access::Write,
             Service::Read | Service::Both => device::Access::Read,
         };
-        let value = channel.length().zip(channel.value());
+        let place = self.place(|spec| spec.label == "Value").unwrap_or_default();
+        // A value that the telegram ends in is none.
+        let value = channel.length().zip(channel.value()).filter(|(length, _)| *length == place.len());
         let value = value.map(|(length, value)| Order::Big.bytes(value.into(), length));
-        let place = if value.is_some() { "Value" } else { "Index" };
-        let span = self.place(|spec| spec.label == place).unwrap_or_default();
+        let index = || self.place(|spec| spec.label == "Index").unwrap_or_default();
+        let span = if value.is_some() { place } else { index() };
         let value = value.as_deref().map(|value| (value, Order::Big));
         profile.parameter(channel.index, channel.subindex, access, value, span)
+    }
+
+    /// A step whose problems stand where the parameter channel does in the telegram, as far as its
+    /// `length` bytes go.
+    fn placed(&self, mut step: Step, length: usize) -> Step {
+        let channel = self.place(|spec| spec.label == "Parameter channel").unwrap_or_default();
+        for problem in &mut step.problems {
+            problem.span = problem.span.shifted(channel.from).within(length);
+        }
+        step
     }
 
     /// Where the first field of such a spec stands. The page that shows telegrams has no keys: labels tell.
@@ -272,7 +284,39 @@ impl Detail {
         self.start = access.and_then(|access| access.start);
         self.coils = access.is_some_and(|access| access.table.holds_switches());
         self.count = access.map(|access| access.count);
-        self.values = access.map_or(Vec::new(), |access| access.values.to_vec());
+        self.values = access.map_or(Vec::new(), |access| self.whole_values(&access).to_vec());
+    }
+
+    /// Registers as a device's table takes them: with the place of their values in the telegram, or of
+    /// what names them.
+    fn device_registers<'a>(&self, access: &Access<'_>, values: &'a [u8]) -> Registers<'a> {
+        let table = access.table;
+        let given = self.given(access).filter(|_| !access.values.is_empty());
+        let span = given.or(self.place(|spec| std::ptr::eq(spec, &table.start))).unwrap_or_default();
+        Registers {
+            start: access.start.unwrap_or_default(),
+            count: access.count,
+            width: table.width,
+            access: if access.write { device::Access::Write } else { device::Access::Read },
+            values: given.is_some().then_some(values),
+            span,
+        }
+    }
+
+    /// The values whose bytes are all there: the value that a telegram ends in is none.
+    fn whole_values<'a>(&self, access: &Access<'a>) -> &'a [u32] {
+        match self.given(access) {
+            Some(span) if !access.table.holds_switches() => {
+                &access.values[..access.values.len().min(span.len() / access.table.width)]
+            }
+            _ => access.values,
+        }
+    }
+
+    /// Where the values of a PDU stand.
+    fn given(&self, access: &Access<'_>) -> Option<Span> {
+        let of = |wanted: &'static Spec| self.place(|spec| std::ptr::eq(spec, wanted));
+        of(&access.table.values).or(of(&access.table.value))
     }
 }
 
@@ -314,27 +358,13 @@ fn has_function(fields: &[Field]) -> bool {
     field::leaves(fields).iter().any(|leaf| matches!(leaf.value, Value::Selector { .. }))
 }
 
-/// The values of registers as bytes, high byte first.
-fn big_endian(access: &Access<'_>) -> Vec<u8> {
+/// The values of registers as bytes, high byte first: those of the telegram, which has `length` of them.
+fn big_endian(access: &Access<'_>, length: usize) -> Vec<u8> {
     let width = access.table.width;
-    access.values.iter().flat_map(|value| value.to_be_bytes().into_iter().skip(4 - width)).collect()
-}
-
-/// Registers as a device's table takes them: with the place of their values in the telegram, or of
-/// what names them.
-fn device_registers<'a>(access: &Access<'_>, values: &'a [u8], fields: &[Field]) -> Registers<'a> {
-    let place = |wanted: &'static Spec| place(fields, |spec| std::ptr::eq(spec, wanted));
-    let table = access.table;
-    let given = place(&table.values).or(place(&table.value)).filter(|_| !access.values.is_empty());
-    let span = given.or(place(&table.start)).unwrap_or_default();
-    Registers {
-        start: access.start.unwrap_or_default(),
-        count: access.count,
-        width: table.width,
-        access: if access.write { device::Access::Write } else { device::Access::Read },
-        values: given.is_some().then_some(values),
-        span,
-    }
+    // A part of a value that comes low word first is not the first part of it.
+    let length = if access.table.value.order == Order::Big { length } else { length / width * width };
+    let bytes = access.values.iter().flat_map(|value| value.to_be_bytes().into_iter().skip(4 - width));
+    bytes.take(length).collect()
 }
 
 /// The first field, items of lists aside, that the telegram ends before.

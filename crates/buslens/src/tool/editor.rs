@@ -124,36 +124,54 @@ impl Editor {
             }
             None => {
                 let report = decode(&link.text, link.options.clone());
-                let telegram = report.telegrams.first()?;
-                let direction = telegram.guess.direction;
-                Self::of(&telegram.line.bytes, telegram.choice.protocol, direction, settings)
+                let first = report.telegrams.first()?;
+                // A faulty telegram can look like several.
+                let others = report.telegrams.iter().skip(1).filter(|_| protocol.is_some());
+                let same_line = others.take_while(|other| other.line.number == first.line.number);
+                let bytes: Vec<u8> = std::iter::once(first)
+                    .chain(same_line)
+                    .flat_map(|telegram| telegram.line.bytes.iter().copied())
+                    .collect();
+                Self::of(&bytes, first.choice.protocol, first.guess.direction, settings)
             }
         };
+        let typed: Vec<_> = link.entries.iter().map(|(path, text)| (path.as_str(), text.as_str())).collect();
         // A link of another version may name entries that there are none of: the others count.
-        link.entries.iter().for_each(|(path, text)| editor.edit(path, Change::Enter(text)));
+        let _ = editor.entries.enter_all(editor.subject.telegram(), &typed);
         Some(editor)
     }
 
-    /// What leads here again, with what was typed as it was typed.
+    /// What leads here again, with what was typed as it was typed. Where that would lead to other bytes,
+    /// only the bytes count.
     pub fn link(&mut self, settings: &Settings) -> Link {
-        let bytes = self.bytes().unwrap_or_default();
-        let (task, fresh) = match &self.subject {
-            Subject::Task(Asking { task, .. }) => {
-                (Some(*task), Self::new(Offer::Task(*task), 1, self.protocol, settings).ok())
+        let options =
+            Options { protocol: Some(self.protocol), settings: settings.clone(), ..Options::default() };
+        let bytes = self.bytes();
+        let to_bytes = bytes.as_ref().ok().map(|bytes| {
+            let options = Options { direction: Some(self.direction), ..options.clone() };
+            Link::to(hex(bytes), options)
+        });
+        let typed = match (&mut self.subject, &to_bytes) {
+            (Subject::Task(asking), _) => {
+                let task = asking.task;
+                let fresh = Self::new(Offer::Task(task), 1, self.protocol, settings);
+                Link {
+                    task: Some(task.label().to_string()),
+                    entries: fresh.map_or(Vec::new(), |fresh| self.entries.typed(asking, &fresh.entries)),
+                    options: Options { device: Some(task.profile), ..options },
+                    ..Link::default()
+                }
             }
-            Subject::Telegram(_) => (None, Some(Self::of(&bytes, self.protocol, self.direction, settings))),
+            (Subject::Telegram(frame), Some(plain)) => {
+                let bytes = bytes.as_deref().unwrap_or_default();
+                let fresh = Self::of(bytes, self.protocol, self.direction, settings);
+                Link { entries: self.entries.typed(frame.as_mut(), &fresh.entries), ..plain.clone() }
+            }
+            (Subject::Telegram(_), None) => return Link::default(),
         };
-        Link {
-            text: if task.is_some() { String::new() } else { hex(&bytes) },
-            options: Options {
-                protocol: Some(self.protocol),
-                direction: task.is_none().then_some(self.direction),
-                device: task.map(|task| task.profile),
-                settings: settings.clone(),
-            },
-            task: task.map(|task| task.label().to_string()),
-            entries: fresh.map_or(Vec::new(), |fresh| self.entries.changed(&fresh.entries)),
-            telegram: 0,
+        match to_bytes {
+            Some(plain) if Self::follow(&typed).is_none_or(|mut there| there.bytes() != bytes) => plain,
+            _ => typed,
         }
     }
 

@@ -11,7 +11,7 @@
 //! | `.` and a path | what was typed into that entry of the form, where the bytes do not tell |
 //!
 //! What is missing is as when nobody chose. Unknown keys are passed over: a newer page may have made
-//! the link.
+//! the link. Keys whose values cannot be read are [`damaged`](Link::damaged), so that a page can say so.
 
 use super::{Options, Profile, Protocol, settings};
 use crate::field::{Direction, hex};
@@ -27,6 +27,9 @@ pub struct Link {
     pub task: Option<String>,
     /// Paths of entries with what was typed there.
     pub entries: Vec<(String, String)>,
+    /// Keys of what it holds that cannot be read: it was cut or changed on its way, or a newer page
+    /// made it.
+    pub damaged: Vec<String>,
 }
 
 impl Link {
@@ -35,24 +38,73 @@ impl Link {
         Self { text, options, ..Self::default() }
     }
 
+    /// Reads the part behind `#` as it stands in an address.
+    ///
+    /// ```
+    /// use buslens::tool::link::Link;
+    ///
+    /// assert_eq!(Link::parse("text=01+03%0A05").text, "01 03\n05");
+    /// assert_eq!(Link::parse("text=%E0%A4%A&device=%").damaged, ["text", "device"]);
+    /// ```
+    pub fn parse(content: &str) -> Self {
+        let mut damaged = Vec::new();
+        let pairs = content.split('&').filter(|pair| !pair.is_empty()).filter_map(|pair| {
+            let (key, value) = pair.split_once('=')?;
+            let both = decoded(key).zip(decoded(value));
+            if both.is_none() {
+                damaged.push(decoded(key).unwrap_or_else(|| key.to_owned()));
+            }
+            both
+        });
+        let mut link = Self::read(pairs);
+        link.damaged.splice(0..0, damaged);
+        link
+    }
+
     /// Reads the pairs of the part behind `#`.
     pub fn read(pairs: impl IntoIterator<Item = (String, String)>) -> Self {
         let mut link = Self::default();
         for (key, value) in pairs {
             let options = &mut link.options;
-            match key.as_str() {
-                "text" => link.text = value,
-                "protocol" => options.protocol = Protocol::of(&value),
-                "direction" => options.direction = Direction::of(&value),
-                "device" => options.device = Profile::of(&value),
-                "settings" => options.settings = kept_settings(&value),
-                "telegram" => link.telegram = value.parse().unwrap_or(1_usize).saturating_sub(1),
-                "task" => link.task = Some(value),
+            let understood = match key.as_str() {
+                "text" => {
+                    link.text = value;
+                    true
+                }
+                "protocol" => {
+                    options.protocol = Protocol::of(&value);
+                    options.protocol.is_some()
+                }
+                "direction" => {
+                    options.direction = Direction::of(&value);
+                    options.direction.is_some()
+                }
+                "device" => {
+                    options.device = Profile::of(&value);
+                    options.device.is_some()
+                }
+                "settings" => {
+                    options.settings = kept_settings(&value);
+                    value.len().is_multiple_of(2) && value.bytes().all(|digit| digit.is_ascii_hexdigit())
+                }
+                "telegram" => {
+                    let number = value.parse::<usize>();
+                    link.telegram = number.clone().unwrap_or(1).saturating_sub(1);
+                    number.is_ok_and(|number| number > 0)
+                }
+                "task" => {
+                    link.task = Some(value);
+                    true
+                }
                 _ => {
                     if let Some(path) = key.strip_prefix('.') {
                         link.entries.push((path.to_owned(), value));
                     }
+                    true
                 }
+            };
+            if !understood {
+                link.damaged.push(key);
             }
         }
         link
@@ -76,6 +128,21 @@ impl Link {
         let entries = self.entries.iter().map(|(path, text)| (format!(".{path}"), text.clone()));
         said.chain(entries).collect()
     }
+}
+
+/// Text in the encoding of web forms; `None` where that is damaged.
+fn decoded(text: &str) -> Option<String> {
+    let digit = |digit: u8| char::from(digit).to_digit(16);
+    let mut bytes = Vec::with_capacity(text.len());
+    let mut rest = text.bytes();
+    while let Some(byte) = rest.next() {
+        bytes.push(match byte {
+            b'+' => b' ',
+            b'%' => (digit(rest.next()?)? << 4 | digit(rest.next()?)?) as u8,
+            byte => byte,
+        });
+    }
+    String::from_utf8(bytes).ok()
 }
 
 /// The settings in as few characters as they take.
@@ -107,6 +174,7 @@ mod tests {
             telegram: 3,
             task: Some("write Batch".to_owned()),
             entries: vec![("values.0.value".to_owned(), String::new())],
+            ..Link::default()
         };
         let again = Link::read(link.pairs());
         assert_eq!(again.text, link.text);
@@ -136,6 +204,19 @@ mod tests {
         ] {
             let link = Link::read([(key.to_owned(), value.to_owned())]);
             assert!(link.text.is_empty() && link.telegram == 0 && link.options.protocol.is_none());
+            let known = !key.is_empty() && key != ".";
+            assert_eq!(link.damaged, if known { vec![key.to_owned()] } else { Vec::new() });
         }
+    }
+
+    #[test]
+    fn a_damaged_link_tells_what_is_lost() {
+        let link = Link::parse("text=%E0%A4%A&device=%&protocol=modbus-tcp&%ZZ=1&direction=up&.unit=2&&x");
+        assert_eq!(link.damaged, ["text", "device", "%ZZ", "direction"]);
+        assert_eq!(link.options.protocol.map(|it| it.key), Some("modbus-tcp"));
+        assert_eq!(link.entries, [("unit".to_owned(), "2".to_owned())]);
+        let whole = Link::parse("text=01+03%20%C3%9F%26%3D&telegram=2&settings=0A");
+        assert_eq!((whole.text.as_str(), whole.telegram), ("01 03 ß&=", 1));
+        assert!(whole.damaged.is_empty());
     }
 }

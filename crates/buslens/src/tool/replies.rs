@@ -14,7 +14,7 @@ pub struct Reply {
 }
 
 /// The responses that can follow a request: that of a healthy device first, with zeros for what it would
-/// read, then those that refuse it. None to a broadcast, to a response, and to what is answered
+/// read, unless that is more than a telegram can hold; then those that refuse it. None to a broadcast, to a response, and to what is answered
 /// without data.
 pub fn replies(request: &mut dyn Frame, settings: &profibus::Settings) -> Vec<Reply> {
     let cargo = match request.content() {
@@ -30,7 +30,8 @@ fn registers(request: &mut dyn Frame) -> Vec<(Message, Cargo)> {
     let Some(pdu) = request.pdu().filter(|pdu| pdu.direction == Direction::Request) else {
         return Vec::new();
     };
-    let mut replies = vec![(healthy(), Cargo::Modbus(pdu.reply()))];
+    let mut replies: Vec<_> =
+        pdu.reply().map(|reply| (healthy(), Cargo::Modbus(reply))).into_iter().collect();
     for code in exceptions() {
         let (number, name) = (code.value as u8, Argument::Term(code.label));
         let label = message!("exception {code}, {name}", code = number, name = name);

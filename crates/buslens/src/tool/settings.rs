@@ -20,7 +20,8 @@ use crate::modbus::{DIALECTS, STANDARD};
 use crate::profibus::Layout;
 use crate::walk::{self, Deviations, Telegram, Walk, Walker};
 
-/// Reads the text; the message says which line is not understood.
+/// Reads the text; the message says which line is not understood. An empty text is no settings: it is
+/// what a file that cannot be read looks like.
 ///
 /// ```
 /// use buslens::tool::settings::read;
@@ -30,6 +31,10 @@ use crate::walk::{self, Deviations, Telegram, Walk, Walker};
 /// assert!(read("colour = 1").unwrap_err().to_string().contains("colour"));
 /// ```
 pub fn read(text: &str) -> Result<Settings, Message> {
+    let text = text.trim_start_matches('\u{FEFF}');
+    if text.trim().is_empty() {
+        return Err(message!("the file is empty, or could not be read"));
+    }
     let mut lines = Vec::new();
     for (index, line) in text.lines().enumerate() {
         let line = line.trim();
@@ -43,16 +48,21 @@ pub fn read(text: &str) -> Result<Settings, Message> {
     }
     let mut settings = Settings::default();
     let mut entries = entries(&mut settings);
-    entries.enter_all(&mut settings, lines)?;
-    match entries.misfits.into_iter().next() {
-        None => Ok(settings),
-        Some(misfit) => Err(message!("{path}: {misfit}", path = misfit.path, misfit = misfit.message)),
-    }
+    let refused = entries.enter_all(&mut settings, &lines);
+    let misfits = entries.misfits.into_iter();
+    let misfits =
+        misfits.map(|misfit| message!("{path}: {misfit}", path = misfit.path, misfit = misfit.message));
+    refused.into_iter().chain(misfits).next().map_or(Ok(settings), Err)
 }
 
-/// The text of what is not as delivered; [`read`] takes it again.
+/// The text of what is not as delivered, or a comment that says that all is; [`read`] takes it again.
 pub fn write(settings: &Settings) -> String {
-    changed(settings).into_iter().map(|(path, text)| format!("{path} = {text}\n")).collect()
+    let changed = changed(settings);
+    if changed.is_empty() {
+        // An empty file would look like one that could not be read.
+        return "# Everything is as delivered.\n".to_owned();
+    }
+    changed.into_iter().map(|(path, text)| format!("{path} = {text}\n")).collect()
 }
 
 /// The settings as bytes, which take less room than the text; nothing if they are as delivered.
@@ -191,7 +201,7 @@ mod tests {
     #[test]
     fn settings_are_written_and_read_again() {
         let mut settings = Settings::default();
-        assert_eq!(write(&settings), "", "nothing is to be said of what is as delivered");
+        assert!(changed(&settings).is_empty(), "nothing is to be said of what is as delivered");
         settings.frame.dialect = DIALECTS[1];
         settings.frame.profibus.swap_process = true;
         settings.frame.profibus.layout = Layout { channel: false, outputs: 2, inputs: 8 };

@@ -40,6 +40,24 @@ impl Entry {
         }
     }
 
+    /// The last part of its path: what a level has too much or too little is shown by one spec.
+    pub fn key(&self) -> &str {
+        self.path.rsplit('.').next().unwrap_or_default()
+    }
+
+    /// What is written into it, where that is a text.
+    pub fn text(&self) -> Option<&str> {
+        match &self.content {
+            Content::Number { text, .. }
+            | Content::Computed { text, .. }
+            | Content::Bytes { text }
+            | Content::Text { text }
+            | Content::Extra { text }
+            | Content::Cut { text } => Some(text),
+            Content::Choice { .. } | Content::List { .. } | Content::Group { .. } => None,
+        }
+    }
+
     /// The field's name in this telegram: "Quantity", "Register 215".
     pub fn label(&self) -> Message {
         self.spec.numbered(self.number)
@@ -95,6 +113,14 @@ pub struct Misfit {
     pub message: Message,
 }
 
+/// What a form gave of which some entries do not fit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unfit {
+    pub misfits: Vec<Misfit>,
+    /// Those of the entries that fit.
+    pub deviations: Deviations,
+}
+
 /// The form of `telegram` as it is, with its deviations.
 pub fn form(telegram: &mut dyn Telegram, deviations: &Deviations) -> Form {
     let computed = super::write::compute(telegram, deviations);
@@ -108,7 +134,7 @@ pub fn form(telegram: &mut dyn Telegram, deviations: &Deviations) -> Form {
 
 /// Fills `telegram` from `form`. Entries that do not fit leave their field as it was and are
 /// returned; entries that the telegram does not have are left out.
-pub fn fill(telegram: &mut dyn Telegram, form: &Form) -> Result<Deviations, Vec<Misfit>> {
+pub fn fill(telegram: &mut dyn Telegram, form: &Form) -> Result<Deviations, Unfit> {
     let mut fill = Fill {
         level: &form.entries,
         path: Path::default(),
@@ -118,7 +144,8 @@ pub fn fill(telegram: &mut dyn Telegram, form: &Form) -> Result<Deviations, Vec<
     // The form never stops a walk.
     let _ = telegram.walk(&mut fill);
     fill.close_window(String::new());
-    if fill.misfits.is_empty() { Ok(fill.deviations) } else { Err(fill.misfits) }
+    let Fill { deviations, misfits, .. } = fill;
+    if misfits.is_empty() { Ok(deviations) } else { Err(Unfit { misfits, deviations }) }
 }
 
 /// Reads a number as a person writes it: decimal, `0xC8`, `C8h`, or negative as two's complement.

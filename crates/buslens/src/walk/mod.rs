@@ -25,7 +25,7 @@ pub use checksum::{Algorithm, CRC_16_MODBUS, FCS, LRC, crc_residue, crc_step};
 pub use deviation::{Deviation, Deviations};
 pub use read::{Reading, UNEXPECTED, read};
 pub use sample::sample;
-pub use write::write;
+pub use write::{Overflow, overflow, write};
 
 use crate::field::{Message, Severity, Spec};
 

@@ -6,6 +6,22 @@ pub fn write(telegram: &mut dyn Telegram, deviations: &Deviations) -> Vec<u8> {
     run(telegram, deviations).bytes
 }
 
+/// The first computed number of `telegram` that its bytes cannot hold: a count of more than it can count.
+pub fn overflow(telegram: &mut dyn Telegram, deviations: &Deviations) -> Option<Overflow> {
+    run(telegram, deviations).overflow
+}
+
+/// A computed number that is larger than its bytes can say.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Overflow {
+    pub spec: &'static Spec,
+    /// The field's place in the telegram, as a form's entry has it.
+    pub path: String,
+    pub number: u64,
+    /// The largest that the bytes can say.
+    pub widest: u64,
+}
+
 /// The computed numbers of `telegram` as they would be without the deviation of their own field
 /// (but with all others).
 pub(super) fn compute(telegram: &mut dyn Telegram, deviations: &Deviations) -> Deviations {
@@ -13,8 +29,13 @@ pub(super) fn compute(telegram: &mut dyn Telegram, deviations: &Deviations) -> D
 }
 
 fn run<'a>(telegram: &mut dyn Telegram, deviations: &'a Deviations) -> Writer<'a> {
-    let mut writer =
-        Writer { bytes: Vec::new(), path: Path::default(), deviations, computed: Deviations::default() };
+    let mut writer = Writer {
+        bytes: Vec::new(),
+        path: Path::default(),
+        deviations,
+        computed: Deviations::default(),
+        overflow: None,
+    };
     // The writer never stops a walk.
     let _ = telegram.walk(&mut writer);
     writer.close_window(0, "");
@@ -26,6 +47,7 @@ struct Writer<'a> {
     path: Path,
     deviations: &'a Deviations,
     computed: Deviations,
+    overflow: Option<Overflow>,
 }
 
 impl Writer<'_> {
@@ -35,7 +57,11 @@ impl Writer<'_> {
 
     fn put_computed(&mut self, spec: &'static Spec, width: usize, raw: u64) {
         let path = self.path.join(spec.key);
-        self.put(spec, width, self.deviations.value(&path).unwrap_or(raw));
+        let (widest, deviation) = (u64::MAX >> (64 - 8 * width), self.deviations.value(&path));
+        self.put(spec, width, deviation.unwrap_or(raw));
+        if raw > widest && deviation.is_none() && self.overflow.is_none() {
+            self.overflow = Some(Overflow { spec, path: path.clone(), number: raw, widest });
+        }
         self.computed.set(path, Deviation::Value(raw));
     }
 
@@ -121,11 +147,11 @@ impl Walker for Writer<'_> {
 
     fn ahead(&mut self, _: usize, part: Part<'_>) -> Option<u64> {
         let from = self.bytes.len();
-        let computed = self.computed.clone();
+        let (computed, overflow) = (self.computed.clone(), self.overflow.clone());
         let walk = part(self);
         let length = self.bytes.len() - from;
         self.bytes.truncate(from);
-        self.computed = computed;
+        (self.computed, self.overflow) = (computed, overflow);
         walk.ok().map(|()| length as u64)
     }
 

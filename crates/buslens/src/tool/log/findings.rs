@@ -1,8 +1,9 @@
 //! What is wrong in the plant, as far as a log tells: one cause behind many symptoms, with evidence.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
+use std::hash::Hash;
 
-use super::{Entry, Log, Role, Source};
+use super::{Dialog, Entry, Log, Role, Source};
 use crate::dialogue::Cause;
 use crate::field::{Direction, Message, grouped, many};
 use crate::frame::Verdict;
@@ -105,50 +106,77 @@ impl Log {
     /// Units that never answer.
     fn of_silence(&self) -> Vec<Finding> {
         const FEWEST: usize = 5;
-        let silent = self.units().into_iter().filter(|unit| unit.requests >= FEWEST && unit.answered == 0);
-        silent
-            .filter_map(|dialog| {
-                let number = dialog.unit?;
-                Some(Finding {
-                    code: "unit-silent",
-                    text: message!(
-                        "Unit {unit} answered none of {n}: it is off, not connected, or has another address, baud rate or parity",
-                        unit = number,
-                        n = many(dialog.requests, "request")
-                    ),
-                    evidence: self.indices(|entry| {
-                        (entry.port, entry.unit) == (dialog.port, dialog.unit) && entry.unanswered()
-                    }),
-                })
-            })
-            .collect()
+        let silent = |unit: &Dialog| unit.requests >= FEWEST && unit.answered == 0 && unit.unit.is_some();
+        let silent: Vec<Dialog> = self.units().into_iter().filter(silent).collect();
+        let evidence = self.evidence(
+            silent.iter().map(|unit| (unit.port, unit.unit)),
+            |entry| (entry.port, entry.unit),
+            Entry::unanswered,
+        );
+        let of_unit = |(unit, evidence): (&Dialog, Vec<u32>)| Finding {
+            code: "unit-silent",
+            text: message!(
+                "Unit {unit} answered none of {n}: it is off, not connected, or has another address, baud rate or parity",
+                unit = unit.unit.unwrap_or_default(),
+                n = many(unit.requests, "request")
+            ),
+            evidence,
+        };
+        let mut findings: Vec<Finding> = silent.iter().zip(evidence).map(of_unit).collect();
+        shorten(&mut findings, |n| message!("{n} more answered no request", n = many(n, "unit")));
+        findings
     }
 
     /// Requests that are always refused.
     fn of_refusals(&self) -> Vec<Finding> {
         const FEWEST: usize = 3;
-        let dialogs = self.statistics().dialogs.iter();
-        let refused = dialogs.filter(|it| it.exceptions >= FEWEST && it.exceptions * 10 >= it.answered * 9);
-        refused
-            .filter_map(|dialog| {
-                let number = dialog.unit?;
-                Some(Finding {
-                    code: "always-refused",
-                    text: message!(
-                        "Unit {unit} refuses function {function}, {n} of {of}: does the device know it, and these addresses?",
-                        unit = number,
-                        function = dialog.function,
-                        n = grouped(dialog.exceptions),
-                        of = many(dialog.answered, "time")
-                    ),
-                    evidence: self.indices(|entry| {
-                        (entry.port, entry.unit) == (dialog.port, dialog.unit)
-                            && entry.plain_function() == dialog.function
-                            && entry.refuses()
-                    }),
-                })
-            })
-            .collect()
+        let refused = |it: &&Dialog| {
+            it.exceptions >= FEWEST && it.exceptions * 10 >= it.answered * 9 && it.unit.is_some()
+        };
+        let refused: Vec<&Dialog> = self.statistics().dialogs.iter().filter(refused).collect();
+        let evidence = self.evidence(
+            refused.iter().map(|it| (it.port, it.unit, it.function)),
+            |entry| (entry.port, entry.unit, entry.plain_function()),
+            Entry::refuses,
+        );
+        let of_dialog = |(dialog, evidence): (&&Dialog, Vec<u32>)| Finding {
+            code: "always-refused",
+            text: message!(
+                "Unit {unit} refuses function {function}, {n} of {of}: does the device know it, and these addresses?",
+                unit = dialog.unit.unwrap_or_default(),
+                function = dialog.function,
+                n = grouped(dialog.exceptions),
+                of = many(dialog.answered, "time")
+            ),
+            evidence,
+        };
+        let mut findings: Vec<Finding> = refused.iter().zip(evidence).map(of_dialog).collect();
+        shorten(&mut findings, |n| {
+            message!("{n} more are always refused by their units", n = many(n, "function"))
+        });
+        findings
+    }
+
+    /// The telegrams that show something of each of `keys`, found in one go.
+    fn evidence<Key: Hash + Eq>(
+        &self,
+        keys: impl Iterator<Item = Key>,
+        key: impl Fn(&Entry) -> Key,
+        shows: impl Fn(&Entry) -> bool,
+    ) -> Vec<Vec<u32>> {
+        let places: HashMap<Key, usize> = keys.zip(0..).collect();
+        let mut evidence = vec![Vec::new(); places.len()];
+        if places.is_empty() {
+            return evidence;
+        }
+        for (entry, index) in self.entries().iter().zip(0_u32..).filter(|(entry, _)| shows(entry)) {
+            if let Some(place) = places.get(&key(entry))
+                && evidence[*place].len() < EVIDENCE
+            {
+                evidence[*place].push(index);
+            }
+        }
+        evidence
     }
 
     /// Responses after the client had given up.
@@ -213,6 +241,20 @@ impl Log {
             evidence: long.iter().map(|(index, _)| *index).take(EVIDENCE).collect(),
         })
     }
+}
+
+/// Puts all findings of a kind behind the first few into one, which says how many there are.
+fn shorten(findings: &mut Vec<Finding>, more: impl FnOnce(usize) -> Message) {
+    /// Nobody reads more of the same.
+    const MOST: usize = 50;
+    if findings.len() <= MOST + 1 {
+        return;
+    }
+    let others = findings.split_off(MOST);
+    let mut evidence: Vec<u32> = others.iter().flat_map(|finding| &finding.evidence).copied().collect();
+    evidence.sort_unstable();
+    evidence.truncate(EVIDENCE);
+    findings.push(Finding { code: others[0].code, text: more(others.len()), evidence });
 }
 
 /// A cause in words, and what to do about it.

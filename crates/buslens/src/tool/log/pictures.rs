@@ -47,7 +47,8 @@ impl Log {
                 None => Some(index as i64),
             };
             let Some(at) = at else { return };
-            let place = (i128::from(at - from) * count as i128 / i128::from((to - from).max(0) + 1)) as usize;
+            let [at, from, to] = [at, from, to].map(i128::from);
+            let place = ((at - from) * count as i128 / ((to - from).max(0) + 1)) as usize;
             let Some((bucket, sum, answers)) = buckets.get_mut(place) else { return };
             bucket.telegrams += u32::from(entry.counts());
             bucket.errors += u32::from(is_error(entry));

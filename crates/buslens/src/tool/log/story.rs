@@ -65,6 +65,11 @@ impl Log {
             &|n| message!("{n} of the capture without telegrams, left out", n = n),
             "connection",
         );
+        say(
+            self.left_out(),
+            &|n| message!("{n} of the capture left out: it has more than can be told apart", n = n),
+            "connection",
+        );
         say(self.unread().len(), &|n| message!("{n} without bytes", n = n), "line");
         story
     }
@@ -73,8 +78,9 @@ impl Log {
     pub(super) fn units(&self) -> Vec<Dialog> {
         let mut units: Vec<Dialog> = Vec::new();
         for dialog in &self.statistics().dialogs {
+            // Dialogs are in the order of their units.
             let same = |unit: &&mut Dialog| (unit.port, unit.unit) == (dialog.port, dialog.unit);
-            match units.iter_mut().find(same) {
+            match units.last_mut().filter(same) {
                 Some(unit) => {
                     unit.telegrams += dialog.telegrams;
                     unit.requests += dialog.requests;
