@@ -1,5 +1,7 @@
 //! The request and its reply, side by side: what they say, their bytes, their fields.
 
+use leptos::ev::KeyboardEvent;
+use leptos::html;
 use leptos::prelude::*;
 
 use super::state::{BuildState, Built, Reply};
@@ -10,6 +12,7 @@ use crate::components::copy_button::CopyButton;
 use crate::components::field_table::{FieldTable, rows};
 use crate::components::icon::{Glyph, Icon};
 use crate::components::problems::Problems;
+use crate::components::roving;
 use crate::components::segments::Segments;
 use crate::components::telegram::Shown;
 use buslens::field::{Direction, Message, hex};
@@ -138,7 +141,12 @@ pub fn ReplySide() -> impl IntoView {
         let is_stop = move || state.reply.get().max(1) == index;
         view! {
             <li class:chosen=here>
-                <button type="button" aria-pressed=move || here().to_string() on:click=move |_| state.reply.set(index)>
+                <button
+                    type="button"
+                    tabindex=move || if is_stop() { "0" } else { "-1" }
+                    aria-pressed=move || here().to_string()
+                    on:click=move |_| state.reply.set(index)
+                >
                     <span>{reply.label}</span>
                     <code>{hex(&reply.bytes)}</code>
                 </button>
@@ -177,7 +185,7 @@ pub fn ReplySide() -> impl IntoView {
                 <Show when=move || !edited.get() && !exceptions.with(Vec::is_empty)>
                     <div class="exceptions">
                         <h3>"Or an exception"</h3>
-                        <ol>
+                        <ol node_ref=list on:keydown=keys>
                             <For each=move || exceptions.get() key=|row| row.clone() children=row />
                         </ol>
                     </div>
