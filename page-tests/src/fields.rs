@@ -1,6 +1,9 @@
 //! Fields and buttons, found as a person finds them: by what they are called.
 
-use serde_json::json;
+use std::time::Duration;
+
+use serde_json::{Value, json};
+use thirtyfour::session::scriptret::ScriptRet;
 
 use crate::{Page, Result};
 
@@ -12,26 +15,37 @@ const FIELD: &str = "const called = (field) => field.getAttribute('aria-label') 
     if (!field) throw new Error(`no field is called ${arguments[0]}`);";
 
 impl Page {
+    /// Runs a script that throws as long as what it looks for is not there: a view may still be loading.
+    async fn on_what_comes(&self, script: &str, arguments: Vec<Value>) -> Result<ScriptRet> {
+        for _ in 0..100 {
+            if let Ok(result) = self.driver.execute(script, arguments.clone()).await {
+                return Ok(result);
+            }
+            tokio::time::sleep(Duration::from_millis(50)).await;
+        }
+        self.driver.execute(script, arguments).await
+    }
+
     /// Types `text` in place of what the field holds.
     pub async fn fill_in(&self, name: &str, text: &str) -> Result {
         let script = format!(
             "{FIELD} field.focus(); field.select(); \
              document.execCommand(arguments[1] ? 'insertText' : 'delete', false, arguments[1])"
         );
-        self.driver.execute(script, vec![json!(name), json!(text)]).await?;
+        self.on_what_comes(&script, vec![json!(name), json!(text)]).await?;
         self.settle().await
     }
 
     /// What the field holds.
     pub async fn holds(&self, name: &str) -> Result<String> {
-        let value = self.driver.execute(format!("{FIELD} return field.value"), vec![json!(name)]).await?;
+        let value = self.on_what_comes(&format!("{FIELD} return field.value"), vec![json!(name)]).await?;
         value.convert()
     }
 
     /// What stands below the field: what is wrong with it, or what to know of it.
     pub async fn about(&self, name: &str) -> Result<String> {
         let script = format!("{FIELD} return field.closest('.entry').querySelector('.about').textContent");
-        self.driver.execute(script, vec![json!(name)]).await?.convert()
+        self.on_what_comes(&script, vec![json!(name)]).await?.convert()
     }
 
     /// Chooses the option that says `text`.
@@ -41,13 +55,13 @@ impl Page {
              if (!option) throw new Error(`no option says ${{arguments[1]}}`); \
              field.value = option.value; field.dispatchEvent(new Event('change', {{ bubbles: true }}))"
         );
-        self.driver.execute(script, vec![json!(name), json!(text)]).await?;
+        self.on_what_comes(&script, vec![json!(name), json!(text)]).await?;
         self.settle().await
     }
 
     /// Turns a switch or a choice on or off.
     pub async fn tick(&self, name: &str) -> Result {
-        self.driver.execute(format!("{FIELD} field.click()"), vec![json!(name)]).await?;
+        self.on_what_comes(&format!("{FIELD} field.click()"), vec![json!(name)]).await?;
         self.settle().await
     }
 
@@ -56,7 +70,7 @@ impl Page {
         let script = "const found = [...document.querySelectorAll('.segments label')].find((label) => \
                       label.textContent.trim() == arguments[0]); \
                       if (!found) throw new Error(`no option says ${arguments[0]}`); found.click()";
-        self.driver.execute(script, vec![json!(text)]).await?;
+        self.on_what_comes(&script, vec![json!(text)]).await?;
         self.settle().await
     }
 
@@ -65,7 +79,7 @@ impl Page {
         let script = "const found = [...document.querySelectorAll('button, a, summary')].find((it) => it.offsetParent \
             && (it.getAttribute('aria-label') ?? it.textContent.trim()) == arguments[0]); \
             if (!found) throw new Error(`no button is called ${arguments[0]}`); found.click()";
-        self.driver.execute(script, vec![json!(name)]).await?;
+        self.on_what_comes(&script, vec![json!(name)]).await?;
         self.settle().await
     }
 
@@ -74,7 +88,7 @@ impl Page {
         self.settle().await?;
         let script = "return [...document.querySelectorAll(arguments[0] + ' .byte-strip button')].map((cell) => \
                       cell.textContent).join(' ')";
-        self.driver.execute(script, vec![json!(css)]).await?.convert()
+        self.on_what_comes(&script, vec![json!(css)]).await?.convert()
     }
 
     /// Lets a script run before the page does, from the next load on.

@@ -123,6 +123,7 @@ async fn lists_grow_and_another_protocol_carries_the_same() -> Result {
     // What does not carry it says so, and everything stays.
     page.choose_in("Protocol", "PROFIBUS").await?;
     page.until(".making > .misfit", "does not carry").await?;
+    assert_eq!(page.count(".stale").await?, 0, "the telegram is as it was");
     assert_eq!(page.bytes_in(REQUEST).await?, "00 01 00 00 00 09 01 10 00 00 00 01 02 12 34");
     page.close().await
 }
@@ -300,6 +301,7 @@ async fn a_parameter_is_changed_in_two_sets() -> Result {
 #[tokio::test(flavor = "multi_thread")]
 async fn a_telegram_is_built_by_keyboard_alone() -> Result {
     let page = Page::open_at("#/build", DESKTOP, false).await?;
+    page.one(".finder input").await?;
     page.driver.execute("document.querySelector('.finder input').focus()", vec![]).await?;
     page.press("write single register request").await?;
     page.press(Key::Enter + "").await?;

@@ -39,11 +39,11 @@ pub fn Making() -> impl IntoView {
         let lights = if direction == Direction::Request { state.request_lights } else { state.reply_lights };
         lights.chosen.set(span.map(|span| Chosen { span, at: span.from }));
     });
-    // What is refused is said at the entry that it is about, or else above all of them.
+    // Why there is no telegram is said at the entry that it is about, or else above all of them.
     let entries = Signal::derive(move || {
         built.with(|built| {
             let mut entries = built.entries.clone();
-            if let Some(message) = &built.refused
+            if let Some(message) = &built.impossible
                 && let Some(path) = concerned(&entries, message)
             {
                 entries.misfits.push(Misfit { path, message: message.clone() });
@@ -53,8 +53,9 @@ pub fn Making() -> impl IntoView {
     });
     let refused = Memo::new(move |_| {
         built.with(|built| {
-            let message = built.refused.as_ref()?;
-            concerned(&built.entries, message).is_none().then(|| message.sentence() + ".")
+            let impossible =
+                built.impossible.as_ref().filter(|message| concerned(&built.entries, message).is_none());
+            Some(impossible.or(built.refused.as_ref())?.sentence() + ".")
         })
     });
     view! {

@@ -20,8 +20,8 @@ pub fn Build() -> impl IntoView {
     let toasts = expect_context::<Toasts>();
     // Told at a pause: not at each keystroke.
     let said = Memo::new(move |_| {
-        built.with(|built| match (&built.refused, &built.telegram) {
-            (Some(refused), _) => refused.sentence(),
+        built.with(|built| match (built.impossible.as_ref().or(built.refused.as_ref()), &built.telegram) {
+            (Some(why), _) => why.sentence(),
             (None, Some(telegram)) => telegram.detail.meaning().sentence(),
             (None, None) => String::new(),
         })

@@ -46,7 +46,9 @@ pub struct Built {
     pub direction: Direction,
     pub protocol: &'static Protocol,
     pub entries: Entries,
-    /// Why there is no telegram of it, or why what was asked for last is not done.
+    /// Why there is no telegram of it.
+    pub impossible: Option<Message>,
+    /// Why what was asked for last is not done.
     pub refused: Option<Message>,
     /// The telegram; the last good one where there is none.
     pub telegram: Option<Shown>,
@@ -66,7 +68,7 @@ pub struct Reply {
 impl Built {
     /// Whether the telegram that is shown is of before what was typed last.
     pub fn is_stale(&self) -> bool {
-        self.refused.is_some()
+        self.impossible.is_some()
     }
 }
 
@@ -80,6 +82,7 @@ impl BuildState {
             direction: editor.direction,
             protocol: editor.protocol,
             entries: editor.entries().clone(),
+            impossible: None,
             refused: None,
             telegram: None,
             request: None,
@@ -239,10 +242,9 @@ impl BuildState {
         let asked = asked.flatten();
         let before = self.built.with_untracked(|built| built.telegram.clone());
         let built = self.with_editor(|editor| {
-            let bytes = editor.bytes();
-            let (refused, bytes) = match bytes {
-                Ok(bytes) => (refused, Some(bytes)),
-                Err(message) => (Some(message), None),
+            let (bytes, impossible) = match editor.bytes() {
+                Ok(bytes) => (Some(bytes), None),
+                Err(message) => (None, Some(message)),
             };
             let (protocol, direction) = (editor.protocol, editor.direction);
             let read = |asked: Option<&[u8]>, bytes: &[u8]| read(asked, bytes, direction, protocol, &options);
@@ -258,6 +260,7 @@ impl BuildState {
                 direction,
                 protocol,
                 entries: editor.entries().clone(),
+                impossible,
                 refused,
                 telegram,
                 request: asked
