@@ -128,6 +128,7 @@ async fn a_thousand_actions_in_each_view_break_nothing() -> Result {
         const here = location.hash.split('?')[0];
         // What leaves the page, or opens a window of the browser, is no part of it.
         window.print = () => {}; HTMLAnchorElement.prototype.click = function () { if (!this.download) this.dispatchEvent(new MouseEvent('click', { bubbles: true, cancelable: true })); };
+        const press = HTMLInputElement.prototype.click; HTMLInputElement.prototype.click = function () { if (this.type != 'file') press.call(this); };
         navigator.clipboard.writeText = () => Promise.resolve();
         let at = 0;
         const act = () => {
@@ -136,7 +137,7 @@ async fn a_thousand_actions_in_each_view_break_nothing() -> Result {
           const kind = random(20);
           const within = [...document.querySelectorAll('main *, .top *, .toast *')];
           if (kind < 8) {
-            const all = within.filter((e) => e.matches('button, summary, a[href^=\'#\'], label:not(.open-file), [role=row], td'));
+            const all = within.filter((e) => e.matches('button, summary, a[href^=\'#\'], label:not(:has([type=file])), [role=row], td'));
             if (all.length) pick(all).dispatchEvent(new MouseEvent('click', { bubbles: true, cancelable: true, detail: 1 }));
           } else if (kind < 12) {
             const all = within.filter((e) => e.matches('textarea, input:not([type=file])'));
