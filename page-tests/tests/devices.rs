@@ -8,6 +8,7 @@ const CHANGES: &str = ".changes ol";
 
 /// Adds a parameter to the list with this title.
 async fn add(page: &Page, list: &str, parameter: &str) -> Result {
+    page.one(".rows .new input").await?;
     let script = "const rows = [...document.querySelectorAll('.rows')].find((rows) => \
                   rows.querySelector('h4').textContent == arguments[0]); \
                   const field = rows.querySelector('.new input'); field.focus(); field.select(); \
