@@ -139,10 +139,7 @@ async fn a_bad_character_is_marked_where_it_stands() -> Result {
     let marked = "return [...document.querySelectorAll('.marks .bad')].map((mark) => mark.textContent)";
     assert_eq!(page.value(marked).await?, json!(["0G"]));
     let remarks = page.texts(".remarks li").await?;
-    assert!(
-        remarks[0].contains("Line 2, character 7") && remarks[0].contains("is not hex"),
-        "{remarks:?}"
-    );
+    assert!(remarks[0].contains("Line 2, character 7") && remarks[0].contains("is not hex"), "{remarks:?}");
     page.click(".remarks li:first-child button").await?;
     let selected = "const input = document.querySelector('.editor textarea'); \
                     return input.value.slice(input.selectionStart, input.selectionEnd)";
