@@ -1,23 +1,27 @@
-// Starts Buslens: the glue first, which then fetches the wasm. The note in the page says what is
-// wrong where not even this script may run, see page.rs.
+// Starts Buslens, as a page and as the page's worker: the glue first, which then fetches the wasm.
+// The note in the page says what is wrong where not even this script may run, see page.rs.
+const inPage = "document" in globalThis;
 try {
   // Chosen in an earlier visit, see header.rs; a browser may forbid to look.
-  document.documentElement.dataset.theme = localStorage.getItem("buslens.theme") ?? "";
+  if (inPage) document.documentElement.dataset.theme = localStorage.getItem("buslens.theme") ?? "";
 } catch {}
-(async (here) => {
-  const note = document.getElementById("boot");
+(async () => {
+  const note = inPage ? document.getElementById("boot") : null;
   try {
-    const page = await import(new URL("./page.js", here));
-    await page.default({ module_or_path: new URL("./page.wasm", here) });
-    note.remove();
+    const page = await import("./page.js");
+    await page.default({ module_or_path: new URL("./page.wasm", import.meta.url) });
+    note?.remove();
   } catch (error) {
     console.error(error);
-    if (location.protocol !== "file:") {
-      note.textContent =
-        "Buslens could not start. Check the connection and reload the page. " +
-        "If that does not help, try a current version of Firefox, Chrome, Edge or Safari.";
+    if (note === null) {
+      // Only what nobody catches reaches the page.
+      setTimeout(() => { throw error; });
+      return;
     }
+    note.textContent =
+      "Buslens could not start. Check the connection and reload the page. " +
+      "If that does not help, try a current version of Firefox, Chrome, Edge or Safari.";
     note.className = "failed";
     note.setAttribute("role", "alert");
   }
-})(document.currentScript.src);
+})();

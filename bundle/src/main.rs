@@ -1,13 +1,13 @@
 //! Turns compiled wasm into the static page.
 //!
-//! `cargo xtask build` runs this in the project's folder as
-//! `bundle <folder> <name>=<wasm file>=<style>,<style>…[=<worker>=<wasm file>]…`. Each module gets a document of
-//! its own from the template `page.html`, the first one as `index.html`, the others as `<name>.html`. The
-//! style is in `style/`. A worker is a second wasm file that the module starts when it needs it. The folder
-//! is left holding the finished page and nothing else.
+//! `cargo xtask build` runs this in the project's folder as `bundle <folder> <wasm file> [--dev]`. The
+//! document is made from the template `index.html`, the stylesheet from those that it links to. The folder
+//! is left holding the finished page and nothing else. With `--dev` there are no compressed copies, which
+//! take longest.
 
 mod names;
 mod page;
+mod split;
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -17,6 +17,7 @@ use std::process::ExitCode;
 use wasm_bindgen_cli_support::Bindgen;
 
 use page::{File, Links};
+use split::Split;
 
 fn main() -> ExitCode {
     match run() {
@@ -29,83 +30,54 @@ fn main() -> ExitCode {
 }
 
 fn run() -> Result<(), String> {
-    let usage = "Usage: bundle <folder> <name>=<wasm file>=<style>,<style>…[=<worker>=<wasm file>]…";
-    let mut arguments = std::env::args().skip(1);
-    let folder = PathBuf::from(arguments.next().ok_or(usage)?);
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let (folder, wasm, packs) = match words[..] {
+        [folder, wasm] => (folder, wasm, true),
+        [folder, wasm, "--dev"] => (folder, wasm, false),
+        _ => return Err("Usage: bundle <folder> <wasm file> [--dev]".to_owned()),
+    };
 
-    let mut modules = Vec::new();
-    for argument in arguments {
-        let parts: Vec<&str> = argument.split('=').collect();
-        let (name, path, styles, worker) = match parts[..] {
-            [name, path, styles] => (name, path, styles, None),
-            [name, path, styles, worker, wasm] => (name, path, styles, Some((worker, wasm))),
-            _ => return Err(usage.to_owned()),
-        };
-        let worker = worker.map(|(name, path)| Compiled::read(name, Path::new(path))).transpose()?;
-        let compiled = Compiled::read(name, Path::new(path))?;
-        let style = hashed(name, "css", stylesheet(styles)?);
-        modules.push(Module { name: name.to_owned(), compiled, style, worker });
-    }
-    if modules.is_empty() {
-        return Err(usage.to_owned());
-    }
-
-    let icon = hashed("icon", "svg", read(Path::new("style/icon.svg"))?);
-    let template =
-        String::from_utf8(read(Path::new("page.html"))?).map_err(|_| "page.html is not UTF-8.".to_owned())?;
-    let mut files = Vec::new();
-    let mut documents = Vec::new();
-    for (index, module) in modules.into_iter().enumerate() {
-        let Module { name, compiled: Compiled { glue, wasm }, style, worker } = module;
-        let boot = hashed("boot", "js", page::boot(&glue, &wasm)?.into_bytes());
-        let mut start = None;
-        if let Some(Compiled { glue, wasm }) = worker {
-            start = Some(hashed("worker", "js", page::worker(&glue, &wasm)?.into_bytes()));
-            files.extend([glue, wasm]);
-        }
-        let links = Links {
-            style: &style,
-            icon: &icon,
-            boot: &boot,
-            glue: &glue,
-            wasm: &wasm,
-            worker: start.as_ref(),
-        };
-        let name = if index == 0 { "index" } else { &name };
-        let content = page::html(&template, &links)?.into_bytes();
-        documents.push(File { name: format!("{name}.html"), content });
-        files.extend([boot, glue, wasm, style]);
-        files.extend(start);
-    }
-    files.push(icon);
-    // Last, so that a page served from this folder during a build finds all it links to.
-    files.extend(documents);
-    write_all(&folder, &files)
+    let template = text("index.html")?;
+    let Compiled { glue, wasm, later } = Compiled::read("page", Path::new(wasm))?;
+    let boot = hashed("boot", "js", page::boot(&glue, &wasm)?.into_bytes());
+    let style = hashed("page", "css", stylesheet(&template)?.into_bytes());
+    let [icon] = page::linked(&template, "icon")[..] else {
+        return Err("index.html should link to one icon.".to_owned());
+    };
+    let icon = hashed("icon", "svg", read(Path::new(icon))?);
+    let links = Links { style: &style, icon: &icon, boot: &boot, glue: &glue, wasm: &wasm };
+    let document =
+        File { name: "index.html".to_owned(), content: page::html(&template, &links)?.into_bytes() };
+    // The document last, so that a page served from this folder during a build finds all it links to.
+    let mut files = vec![boot, glue, wasm, style, icon];
+    files.extend(later);
+    files.push(document);
+    write_all(Path::new(folder), &files, packs)
 }
 
-/// A document of the page and what it needs.
-struct Module {
-    name: String,
-    compiled: Compiled,
-    style: File,
-    worker: Option<Compiled>,
-}
-
-/// What wasm-bindgen makes of one compiled binary.
+/// What becomes of the compiled binary.
 struct Compiled {
     glue: File,
     wasm: File,
+    /// The parts of the module that are loaded later.
+    later: Vec<File>,
 }
 
 impl Compiled {
     fn read(name: &str, path: &Path) -> Result<Compiled, String> {
         let says = |error| format!("wasm-bindgen could not read {}: {error:#}", path.display());
+        let parts = path.with_extension("parts");
+        let Split { main, later, link } = split::split(&read(path)?, &parts)?;
         let mut output = Bindgen::new()
-            .input_path(path)
+            .input_bytes(name, main)
             .out_name(name)
             .web(true)
             .map_err(says)?
             .typescript(false)
+            // The later parts import them.
+            .keep_lld_exports(true)
+            .demangle(false)
             .remove_name_section(true)
             .remove_producers_section(true)
             .omit_default_module_path(true)
@@ -130,11 +102,13 @@ impl Compiled {
                 import.name = short;
             }
         }
+        let glue = split::join(&glue, &link)?;
         let glue = minifier::js::minify(&glue)
             .map_err(|error| format!("The glue of {name} cannot be made smaller: {error}."))?;
         Ok(Compiled {
             glue: hashed(name, "js", glue.to_string().into_bytes()),
             wasm: hashed(name, "wasm", output.wasm_mut().emit_wasm()),
+            later,
         })
     }
 }
@@ -143,39 +117,36 @@ fn hashed(stem: &str, extension: &str, content: Vec<u8>) -> File {
     File { name: names::hashed(stem, extension, &content), content }
 }
 
-/// Some files of `style/`, as one small one.
-fn stylesheet(names: &str) -> Result<Vec<u8>, String> {
-    let mut text = String::new();
-    for name in names.split(',') {
-        let path = Path::new("style").join(name).with_extension("css");
-        let content = String::from_utf8(read(&path)?);
-        text.push_str(&content.map_err(|_| format!("{} is not UTF-8.", path.display()))?);
-        text.push('\n');
+/// The stylesheets that the template links to, as one.
+fn stylesheet(template: &str) -> Result<String, String> {
+    let mut style = String::new();
+    for name in page::linked(template, "stylesheet") {
+        style.push_str(&text(name)?);
+        style.push('\n');
     }
-    text.push_str(page::NOTE_STYLE);
-    let small =
-        minifier::css::minify(&text).map_err(|error| format!("The stylesheet has a slip: {error}."))?;
-    Ok(small.to_string().into_bytes())
+    style.push_str(page::NOTE_STYLE);
+    Ok(style)
 }
 
 /// Writes the files and their compressed copies, then removes whatever else the folder holds.
-fn write_all(folder: &Path, files: &[File]) -> Result<(), String> {
+fn write_all(folder: &Path, files: &[File], packs: bool) -> Result<(), String> {
     fs::create_dir_all(folder).map_err(|error| format!("{} cannot be made: {error}.", folder.display()))?;
     let mut kept = BTreeSet::new();
     for file in files {
         let path = folder.join(&file.name);
-        let brotli_path = folder.join(format!("{}.br", file.name));
-        let gzip_path = folder.join(format!("{}.gz", file.name));
+        let copies = [(".br", brotli as Pack), (".gz", gzip)]
+            .map(|(ending, pack)| (folder.join(format!("{}{ending}", file.name)), pack));
+        let copies = if packs { &copies[..] } else { &[] };
         // Copies are written before the file itself, so a file of the right content has its own.
-        let done = fs::read(&path).is_ok_and(|old| old == file.content)
-            && brotli_path.exists()
-            && gzip_path.exists();
-        if !done {
-            replace(&brotli_path, &brotli(&file.content)?)?;
-            replace(&gzip_path, &gzip(&file.content)?)?;
+        let same = fs::read(&path).is_ok_and(|old| old == file.content);
+        if !same || copies.iter().any(|(path, _)| !path.exists()) {
+            for (path, pack) in copies {
+                replace(path, &pack(&file.content)?)?;
+            }
             replace(&path, &file.content)?;
         }
-        kept.extend([path, brotli_path, gzip_path]);
+        kept.extend(copies.iter().map(|(path, _)| path.clone()));
+        kept.insert(path);
     }
     for path in entries(folder)? {
         if kept.contains(&path) {
@@ -186,6 +157,9 @@ fn write_all(folder: &Path, files: &[File]) -> Result<(), String> {
     }
     Ok(())
 }
+
+/// Makes a compressed copy.
+type Pack = fn(&[u8]) -> Result<Vec<u8>, String>;
 
 /// Puts a file in place in one go: whoever reads meanwhile sees the old one or the new one.
 fn replace(path: &Path, content: &[u8]) -> Result<(), String> {
@@ -220,6 +194,10 @@ fn gzip(content: &[u8]) -> Result<Vec<u8>, String> {
 
 fn read(path: &Path) -> Result<Vec<u8>, String> {
     fs::read(path).map_err(|error| format!("{} cannot be read: {error}.", path.display()))
+}
+
+fn text(path: &str) -> Result<String, String> {
+    String::from_utf8(read(Path::new(path))?).map_err(|_| format!("{path} is not UTF-8."))
 }
 
 fn entries(folder: &Path) -> Result<Vec<PathBuf>, String> {

@@ -1,12 +1,9 @@
-//! The text files of the page: its documents with its links and its policy, and the boot script.
+//! The text files of the page: its document with its links and its policy, and the boot script.
 
 use crate::names::integrity;
 
 /// The boot script as it is written in this folder, with the plain names of the files it loads.
 const BOOT: &str = include_str!("boot.js");
-
-/// The same for a worker.
-const WORKER: &str = include_str!("worker.js");
 
 /// The note in the page while it is not running. A page opened by file:// gets neither its scripts
 /// nor its stylesheet, so only the document itself can say why nothing happens. Everywhere else the
@@ -30,42 +27,41 @@ pub struct File {
     pub content: Vec<u8>,
 }
 
-/// What a document links to.
+/// What the document links to.
 pub struct Links<'a> {
     pub style: &'a File,
     pub icon: &'a File,
     pub boot: &'a File,
     pub glue: &'a File,
     pub wasm: &'a File,
-    /// The script of a worker, which the page starts when it needs it.
-    pub worker: Option<&'a File>,
 }
 
 /// The boot script with hashed names in the place of plain ones: `./page.js` becomes
 /// `./page-0123456789abcdef.js`.
 pub fn boot(glue: &File, wasm: &File) -> Result<String, String> {
-    with_names(BOOT, glue, wasm)
-}
-
-/// The same for the script of a worker.
-pub fn worker(glue: &File, wasm: &File) -> Result<String, String> {
-    with_names(WORKER, glue, wasm)
-}
-
-fn with_names(script: &str, glue: &File, wasm: &File) -> Result<String, String> {
-    let text = replace_once(script, "./page.js", &format!("./{}", glue.name))?;
+    let text = replace_once(BOOT, "./page.js", &format!("./{}", glue.name))?;
     replace_once(&text, "./page.wasm", &format!("./{}", wasm.name))
 }
 
-/// A document: the template with the policy at the start of its head, before anything that the
-/// policy governs, the links at the end of it, and the note in the body. All addresses are relative,
-/// so that the page works in any folder of a site.
-pub fn html(template: &str, links: &Links) -> Result<String, String> {
-    let policy = format!("<head>\n    <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">");
-    let with_policy = replace_once(template, "<head>", &policy)?;
+/// The addresses that `template` links to as `rel`, in their order.
+pub fn linked<'a>(template: &'a str, rel: &str) -> Vec<&'a str> {
+    let start = format!("<link rel=\"{rel}\" href=\"");
+    let links = template.match_indices(&start).map(|(at, _)| &template[at + start.len()..]);
+    links.filter_map(|rest| Some(rest.split_once('"')?.0)).collect()
+}
 
-    let Links { style, icon, boot, glue, wasm, worker } = links;
-    let mut lines = vec![
+/// The document: the template with the policy at the start of its head, before anything that the
+/// policy governs, the files of the page in place of those it was written with at the end of it, and
+/// the note in the body. All addresses are relative, so that the page works in any folder of a site.
+pub fn html(template: &str, links: &Links) -> Result<String, String> {
+    let own =
+        |line: &&str| !line.contains("<link rel=\"stylesheet\"") && !line.contains("<link rel=\"icon\"");
+    let plain = template.lines().filter(own).map(|line| format!("{line}\n")).collect::<String>();
+    let policy = format!("<head>\n    <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">");
+    let with_policy = replace_once(&plain, "<head>", &policy)?;
+
+    let Links { style, icon, boot, glue, wasm } = links;
+    let lines = [
         format!(
             r#"<link rel="preload" href="./{}" as="fetch" type="application/wasm" crossorigin>"#,
             wasm.name
@@ -81,10 +77,12 @@ pub fn html(template: &str, links: &Links) -> Result<String, String> {
             integrity(&style.content)
         ),
         format!(r#"<link rel="icon" href="./{}" type="image/svg+xml">"#, icon.name),
-        format!(r#"<script src="./{}" integrity="{}" defer></script>"#, boot.name, integrity(&boot.content)),
+        format!(
+            r#"<script type="module" src="./{}" integrity="{}"></script>"#,
+            boot.name,
+            integrity(&boot.content)
+        ),
     ];
-    // The page's program finds its worker by this link; a browser does nothing with it.
-    lines.extend(worker.map(|worker| format!(r#"<link id="worker" rel="help" href="./{}">"#, worker.name)));
     let links = format!("  {}\n  </head>", lines.join("\n    "));
     let with_links = replace_once(&with_policy, "</head>", &links)?;
     replace_once(&with_links, "<body>", &format!("<body>\n    {NOTE}"))
@@ -105,7 +103,9 @@ fn replace_once(text: &str, from: &str, to: &str) -> Result<String, String> {
 mod tests {
     use super::*;
 
-    const TEMPLATE: &str = "<html>\n  <head>\n    <title>T</title>\n  </head>\n  <body></body>\n</html>\n";
+    const TEMPLATE: &str = "<html>\n  <head>\n    <title>T</title>\n    \
+        <link rel=\"stylesheet\" href=\"style/a.css\">\n    <link rel=\"stylesheet\" href=\"style/b.css\">\n  \
+        </head>\n  <body></body>\n</html>\n";
 
     fn file(name: &str) -> File {
         File { name: name.to_owned(), content: name.as_bytes().to_vec() }
@@ -120,7 +120,6 @@ mod tests {
                 boot: &file("boot-3.js"),
                 glue: &file("page-4.js"),
                 wasm: &file("page-5.wasm"),
-                worker: None,
             },
         )
     }
@@ -141,7 +140,14 @@ mod tests {
             assert!(address.starts_with("./"), "{address} is not relative");
         }
         assert_eq!(html.matches("<script").count(), 1, "{html}");
-        assert!(html.contains("defer></script>"), "{html}");
+        assert!(html.contains("\"></script>"), "{html}");
+    }
+
+    #[test]
+    fn the_stylesheets_of_the_template_are_found_and_replaced_by_one() {
+        assert_eq!(linked(TEMPLATE, "stylesheet"), ["style/a.css", "style/b.css"]);
+        let html = page(TEMPLATE).unwrap();
+        assert_eq!(linked(&html, "stylesheet"), ["./page-1.css"]);
     }
 
     #[test]

@@ -4,6 +4,8 @@
 //! they need in the environment: `BUSLENS_URL`, `WEBDRIVER_URL`, `BUSLENS_CHROMIUM`, `BUSLENS_AXE`
 //! and `BUSLENS_SCREENSHOTS`.
 
+mod fields;
+
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -20,8 +22,8 @@ pub const PHONE: (u32, u32) = (390, 844);
 /// The narrowest page that must do without scrolling sideways (WCAG 2.2, 1.4.10).
 pub const NARROW: (u32, u32) = (320, 640);
 
-/// Every document of the page.
-pub const DOCUMENTS: [&str; 6] = ["", "logs.html", "build.html", "check.html", "devices.html", "sheet.html"];
+/// Every view of the page.
+pub const VIEWS: [&str; 5] = ["#/read", "#/build", "#/check", "#/devices", "#/sheet"];
 
 /// A page of its own in a browser of its own.
 pub struct Page {
@@ -29,13 +31,13 @@ pub struct Page {
 }
 
 impl Page {
-    /// Opens the page's first document.
+    /// Opens the page.
     pub async fn open(size: (u32, u32), dark: bool) -> Result<Self> {
         Self::open_at("", size, dark).await
     }
 
-    /// Opens a document of the page.
-    pub async fn open_at(document: &str, (width, height): (u32, u32), dark: bool) -> Result<Self> {
+    /// Opens a view of the page, or a link.
+    pub async fn open_at(fragment: &str, (width, height): (u32, u32), dark: bool) -> Result<Self> {
         let mut options = DesiredCapabilities::chrome();
         options.set_binary(&setting("BUSLENS_CHROMIUM"))?;
         for argument in [
@@ -57,17 +59,23 @@ impl Page {
         let scheme = json!({ "name": "prefers-color-scheme", "value": if dark { "dark" } else { "light" } });
         driver.cdp().send_raw("Emulation.setEmulatedMedia", json!({ "features": [scheme] })).await?;
         let page = Self { driver };
-        page.driver.goto(format!("{}{document}", setting("BUSLENS_URL"))).await?;
-        page.one("#main").await?;
+        page.driver.goto(format!("{}{fragment}", setting("BUSLENS_URL"))).await?;
+        page.one("main > *").await?;
         Ok(page)
     }
 
-    /// Goes to another document of the page, or to a link in it.
-    pub async fn go(&self, document: &str) -> Result {
+    /// Loads the page anew, with another view or a link.
+    pub async fn go(&self, fragment: &str) -> Result {
         // A link that differs behind its `#` only would load nothing.
         self.driver.goto("about:blank").await?;
-        self.driver.goto(format!("{}{document}", setting("BUSLENS_URL"))).await?;
-        self.one("#main").await?;
+        self.driver.goto(format!("{}{fragment}", setting("BUSLENS_URL"))).await?;
+        self.one("main > *").await?;
+        self.settle().await
+    }
+
+    /// Goes to another view, as a click on its name does.
+    pub async fn view(&self, name: &str) -> Result {
+        self.click(&format!(".views a[href='#/{name}']")).await?;
         self.settle().await
     }
 
@@ -89,16 +97,16 @@ impl Page {
         panic!("no {css} says {text:?}: {:?}", self.texts(css).await?);
     }
 
-    /// The input of Decode.
+    /// The input of Read.
     pub async fn input(&self) -> Result<String> {
-        let value = self.value("return document.getElementById('input').value").await?;
+        let value = self.value("return document.querySelector('.editor textarea').value").await?;
         Ok(value.as_str().unwrap_or_default().to_owned())
     }
 
     /// The bytes of the telegram that is shown.
     pub async fn shown(&self) -> Result<String> {
         self.settle().await?;
-        let cells = "return [...document.querySelectorAll('.strip [data-at]')].map((cell) => \
+        let cells = "return [...document.querySelectorAll('.byte-strip button')].map((cell) => \
                      cell.textContent.slice(0, 2)).join(' ')";
         Ok(self.value(cells).await?.as_str().unwrap_or_default().to_owned())
     }
@@ -140,35 +148,58 @@ impl Page {
         self.driver.active_element().await?.send_keys(keys.into()).await
     }
 
-    /// Puts `text` in place of the input, as pasting does.
+    /// Pastes `text` where nothing is typed, which puts it in the place of the input.
     pub async fn paste(&self, text: &str) -> Result {
-        let script = "const input = document.getElementById('input'); input.focus(); input.select(); \
-                      document.execCommand(arguments[0] ? 'insertText' : 'delete', false, arguments[0]);";
+        let script = "document.activeElement?.blur(); const data = new DataTransfer(); \
+                      data.setData('text', arguments[0]); document.body.dispatchEvent(new ClipboardEvent('paste', \
+                      { clipboardData: data, bubbles: true, cancelable: true }))";
         self.driver.execute(script, vec![json!(text)]).await?;
         self.settle().await
     }
 
-    /// Puts `text` in place of the input as a script does: at once, however long it is.
-    pub async fn fill(&self, text: &str) -> Result {
-        let script = "const input = document.getElementById('input'); input.value = arguments[0]; \
-                      input.dispatchEvent(new Event('input', { bubbles: true }))";
-        self.driver.execute(script, vec![json!(text)]).await?;
+    /// Puts `text` into a field as somebody does who types.
+    pub async fn fill(&self, css: &str, text: &str) -> Result {
+        let script = "const field = document.querySelector(arguments[0]); field.focus(); field.select(); \
+                      document.execCommand(arguments[1] ? 'insertText' : 'delete', false, arguments[1])";
+        self.driver.execute(script, vec![json!(css), json!(text)]).await?;
         self.settle().await
     }
 
-    /// Types `text` in place of what the entry of a form holds.
-    pub async fn enter(&self, entry: &str, text: &str) -> Result {
-        let script = "const field = document.getElementById(arguments[0]); field.focus(); field.select(); \
-                      document.execCommand('insertText', false, arguments[1])";
-        self.driver.execute(script, vec![json!(entry), json!(text)]).await?;
+    /// Chooses in a list, by the value.
+    pub async fn pick(&self, css: &str, value: &str) -> Result {
+        let script = "const list = document.querySelector(arguments[0]); list.value = arguments[1]; \
+                      list.dispatchEvent(new Event('change', { bubbles: true }))";
+        self.driver.execute(script, vec![json!(css), json!(value)]).await?;
         self.settle().await
     }
 
-    /// Chooses the telegram at `index` of the list.
+    /// Chooses how the input is read: the list with this name.
+    pub async fn read_as(&self, label: &str, value: &str) -> Result {
+        let script = "const label = [...document.querySelectorAll('.choose')].find((it) => \
+                      it.querySelector('span').textContent == arguments[0]); const list = label.querySelector('select'); \
+                      list.value = arguments[1]; list.dispatchEvent(new Event('change', { bubbles: true }))";
+        self.driver.execute(script, vec![json!(label), json!(value)]).await?;
+        self.settle().await
+    }
+
+    /// Chooses the telegram at `index` beside the input.
     pub async fn choose(&self, index: usize) -> Result {
-        let script = "document.getElementById(arguments[0]).click()";
-        self.driver.execute(script, vec![json!(format!("telegram-{index}"))]).await?;
+        self.click(&format!(".said-lines li:nth-child({}) button", index + 1)).await?;
         self.settle().await
+    }
+
+    /// Clicks the first element below `css` whose text is `text`.
+    pub async fn click_text(&self, css: &str, text: &str) -> Result {
+        let script = "const all = [...document.querySelectorAll(arguments[0])]; \
+                      const found = all.find((it) => it.textContent.trim().startsWith(arguments[1])); \
+                      if (!found) throw new Error(`no ${arguments[0]} says ${arguments[1]}`); found.click()";
+        self.driver.execute(script, vec![json!(css), json!(text)]).await?;
+        self.settle().await
+    }
+
+    /// Opens a file in Read.
+    pub async fn open_file(&self, path: &str) -> Result {
+        self.one(".open-file input").await?.send_keys(path).await
     }
 
     /// Waits for the page to be painted.

@@ -1,115 +1,248 @@
-//! Protocols and devices: told, chosen, explained.
+//! The devices' settings: entered once, kept, followed by Read and Build, undone, saved and opened as a file.
 
-use buslens::tool::{PROFILES, PROTOCOLS};
 use page_tests::{DESKTOP, PHONE, Page, Result};
+use serde_json::json;
+use thirtyfour::prelude::*;
 
-const TCP: &str = "00 01 00 00 00 06 FF 03 00 C8 00 03";
-const CHANNEL: &str = "52 00 23 00 00 0B 00 00\n00 00 00 00 00 00 00 00\n\
-                       52 00 23 00 00 0B 00 00\nC2 00 23 00 08 00 00 30";
+const CHANGES: &str = ".changes ol";
+
+/// Adds a parameter to the list with this title.
+async fn add(page: &Page, list: &str, parameter: &str) -> Result {
+    page.one(".rows .new input").await?;
+    let script = "const rows = [...document.querySelectorAll('.rows')].find((rows) => \
+                  rows.querySelector('h4').textContent == arguments[0]); \
+                  const field = rows.querySelector('.new input'); field.focus(); field.select(); \
+                  document.execCommand('insertText', false, arguments[1])";
+    page.driver.execute(script, vec![json!(list), json!(parameter)]).await?;
+    page.settle().await?;
+    page.press(Key::Enter + "").await?;
+    page.settle().await
+}
+
+/// Process data by Chk_Cfg's delivery are 4 bytes; here they are 2, low byte first.
+async fn set_up(page: &Page) -> Result {
+    page.fill_in("Process output bytes", "2").await?;
+    page.tick("Swap process data").await?;
+    add(page, "Registers you read", "status word").await
+}
 
 #[tokio::test(flavor = "multi_thread")]
-async fn every_protocol_and_device_is_offered() -> Result {
-    let page = Page::open(DESKTOP, false).await?;
-    for protocol in PROTOCOLS {
-        assert_eq!(page.count(&format!("#protocol option[value={}]", protocol.key)).await?, 1);
+async fn settings_are_kept_and_followed() -> Result {
+    let page = Page::open_at("#/devices", DESKTOP, false).await?;
+    page.until(".changes", "everything is at factory settings").await?;
+    set_up(&page).await?;
+    let said = page.text(CHANGES).await?;
+    for sentence in [
+        "Register 0000h reads Status word (Sy.51).",
+        "Process data come low byte first.",
+        "Process output data have 2 bytes.",
+    ] {
+        assert!(said.contains(sentence), "{sentence}: {said}");
     }
-    for profile in PROFILES {
-        assert_eq!(page.count(&format!("#device option[value={}]", profile.key)).await?, 1);
+    assert_eq!(page.accessibility().await?, [""; 0]);
+    page.picture("devices-desktop-light").await?;
+
+    let registers = "#/read?device=keb-f5-modbus&text=01+03+00+00+00+02+C4+0B";
+    let process =
+        "#/read?device=keb-f5-profibus&text=68+0D+0D+68+01+02+5D+01+00+00+00+00+00+00+00+34+12+A7+16";
+    page.go(registers).await?;
+    page.until("main h2", "Status word (Sy.51)").await?;
+    page.go(process).await?;
+    page.until("main h2", "1234h").await?;
+    // A link takes them along.
+    page.view("devices").await?;
+    let link = page.fragment().await?;
+    assert!(link.contains("settings="), "{link}");
+    page.driver.execute("localStorage.clear()", vec![]).await?;
+    page.go(&link).await?;
+    page.until(CHANGES, "Register 0000h reads Status word (Sy.51).").await?;
+    page.close().await
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn parameters_are_found_by_name_and_number() -> Result {
+    let page = Page::open_at("#/devices", DESKTOP, true).await?;
+    for (typed, said) in [
+        ("set speed", "Register 0000h reads Set speed (Sy.52)."),
+        ("0033h", "Register 0001h reads Status word (Sy.51)."),
+        ("op.59", "Registers 0002h and 0003h read Motorpoti ramp time (OP.59), 32 bit."),
+        ("0x1234", "Register 0004h reads parameter 1234h."),
+    ] {
+        add(&page, "Registers you read", typed).await?;
+        page.until(CHANGES, said).await?;
     }
+    // The list is open while somebody types, and what fits to nothing is said and stays.
+    add(&page, "Registers you write", "no such thing").await?;
+    page.until(".rows .nothing", "No parameter is called so.").await?;
+    assert_eq!(page.accessibility().await?, [""; 0]);
+    let typed = "return document.activeElement.value";
+    assert_eq!(page.value(typed).await?, json!("no such thing"));
+    page.press(Key::Escape + "").await?;
+    page.picture("devices-desktop-dark").await?;
+    page.choose_in("Width of read register 0001h", "32 bit").await?;
+    page.until(CHANGES, "Registers 0001h and 0002h read Status word (Sy.51), 32 bit.").await?;
+    page.press_button("Remove read register 0000h").await?;
+    page.until(CHANGES, "Registers 0000h and 0001h read Status word (Sy.51), 32 bit.").await?;
     page.close().await
 }
 
+/// Each change by itself, step by step, and all at once.
 #[tokio::test(flavor = "multi_thread")]
-async fn the_protocol_is_told_and_can_be_chosen() -> Result {
-    let page = Page::open(DESKTOP, false).await?;
-    page.paste(TCP).await?;
-    assert!(page.text(".detail .title").await?.contains("Modbus TCP request"));
-    assert!(page.text(".detail").await?.contains("it begins with a Modbus TCP header"));
-    assert_eq!(page.text("div.check h3").await?, "No check of its own");
-    page.one("#protocol option[value=modbus-rtu]").await?.click().await?;
-    page.settle().await?;
-    assert!(page.text(".detail .title").await?.contains("Modbus RTU"));
-    assert!(page.text(".detail").await?.contains("Modbus RTU: set by hand"));
-    // What was chosen stays for what is pasted next, and can be taken back.
-    page.one("#protocol option[value='']").await?.click().await?;
-    page.settle().await?;
-    assert!(page.text(".detail .title").await?.contains("Modbus TCP request"));
-    page.close().await
-}
-
-#[tokio::test(flavor = "multi_thread")]
-async fn a_device_gives_registers_their_names() -> Result {
-    let page = Page::open(DESKTOP, false).await?;
-    page.paste("01 03 00 C8 00 03 84 35\n01 03 06 00 80 42 A4 F1 DE B0 F8").await?;
-    page.choose(1).await?;
-    assert!(!page.one("h3.device").await?.is_displayed().await?);
-    page.one("#device option[value=memograph-rsg45]").await?.click().await?;
-    page.settle().await?;
-    assert_eq!(page.text(".detail h2").await?, "Unit 1 answers: Universal channel 1 = 82.4724, good.");
-    assert_eq!(page.text("h3.device").await?, "Endress+Hauser Memograph M RSG45");
-    // The bits of the status are behind its row.
-    assert_eq!(page.count("h3.device + table tr:not([hidden]) .field").await?, 3);
-    page.click("h3.device + table [data-depth='1'] button.group").await?;
-    assert!(page.count("h3.device + table tr:not([hidden]) .field").await? > 10);
-    page.picture("device-desktop").await?;
-    page.close().await
-}
-
-#[tokio::test(flavor = "multi_thread")]
-async fn jobs_are_followed() -> Result {
-    let page = Page::open(PHONE, true).await?;
-    page.paste(CHANNEL).await?;
-    page.one("#device option[value=keb-f5-profibus]").await?.click().await?;
-    page.settle().await?;
-    page.choose(1).await?;
-    assert!(page.text(".detail h2").await?.starts_with("Job 1 is still running"));
-    page.choose(3).await?;
-    let said = page.text(".detail h2").await?;
-    assert!(said.starts_with("Job 1 failed") && said.contains("value out of range"), "{said}");
-    page.picture("jobs-phone-dark").await?;
-    page.close().await
-}
-
-#[tokio::test(flavor = "multi_thread")]
-async fn a_chosen_register_is_seen_in_every_view() -> Result {
-    let page = Page::open(DESKTOP, false).await?;
-    page.paste("01 03 06 00 80 42 A4 F1 DE B0 F8").await?;
-    page.click("#views summary").await?;
-    assert!(page.text("#views").await?.contains("Choose a register"));
-    page.click(".strip [data-at='5']").await?;
-    page.settle().await?;
-    let views = page.texts("#views td").await?;
-    for expected in ["17060", "42A4h", "0100 0010 1010 0100", "82.4724"] {
-        assert!(views.iter().any(|view| view == expected), "{expected} in {views:?}");
+async fn every_change_is_undone() -> Result {
+    let page = Page::open_at("#/devices", DESKTOP, false).await?;
+    set_up(&page).await?;
+    page.press_button("Undo: Process data come low byte first").await?;
+    assert!(!page.text(CHANGES).await?.contains("low byte first"));
+    assert!(page.text(CHANGES).await?.contains("Status word"));
+    page.press_button("Undo").await?;
+    page.until(CHANGES, "low byte first").await?;
+    page.press_button("Redo").await?;
+    assert!(!page.text(CHANGES).await?.contains("low byte first"));
+    page.press_button("Reset all").await?;
+    page.until(".changes", "everything is at factory settings").await?;
+    page.click(".toast .button:not(.icon-only)").await?;
+    page.until(CHANGES, "Status word").await?;
+    // Outside of fields the keys do the same.
+    page.press_button("Reset all").await?;
+    page.driver.execute("document.querySelector('.changes .button:not(:disabled)').focus()", vec![]).await?;
+    page.driver.action_chain().key_down(Key::Control).send_keys("z").key_up(Key::Control).perform().await?;
+    page.until(CHANGES, "Status word").await?;
+    // Step by step to the start.
+    for _ in 0..20 {
+        if page.count(".changes .actions .button:first-child:disabled").await? > 0 {
+            break;
+        }
+        page.press_button("Undo").await?;
     }
-    // Another telegram has nothing chosen.
-    page.paste("01 03 00 C8 00 03 84 35").await?;
-    assert!(page.one("#views").await?.attr("hidden").await?.is_some());
+    page.until(".changes", "everything is at factory settings").await?;
     page.close().await
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn the_display_of_a_device_is_explained() -> Result {
-    let page = Page::open(DESKTOP, false).await?;
-    page.one("#device option[value=keb-f5-profibus]").await?.click().await?;
-    page.paste("t_out").await?;
-    assert!(page.text(".remarks").await?.contains("control board does not answer"));
+async fn settings_are_saved_and_opened_as_a_file() -> Result {
+    let page = Page::open_at("#/devices", PHONE, true).await?;
+    set_up(&page).await?;
+    page.picture("devices-phone-dark").await?;
+    page.driver.execute("document.querySelector('.changes details').scrollIntoView()", vec![]).await?;
+    let file = page.saved(".changes .actions:nth-of-type(2) .button:first-child").await?;
+    let text = std::fs::read_to_string(&file)?;
+    assert_eq!(
+        text,
+        "read_mapping.entries = 1\nread_mapping.entries.0.entry = 00330101h\nprofibus = 01h\noutputs = 2\n"
+    );
+    page.press_button("Reset all").await?;
+    let chooser = page.driver.find(By::Css(".changes input[type=file]")).await?;
+    chooser.send_keys(file.display().to_string()).await?;
+    page.until(".toast", "the devices are set up by it").await?;
+    assert_eq!(page.holds("Process output bytes").await?, "2");
+    // One that is not understood, or empty, is told, and changes nothing.
+    for (content, said) in [
+        ("outputs = 2\ncolour = 1\n", "“colour”"),
+        ("outputs two\n", "is not like"),
+        ("", "is empty. Nothing is changed."),
+        (" \n", "is empty. Nothing is changed."),
+    ] {
+        std::fs::write(&file, content)?;
+        chooser.send_keys(file.display().to_string()).await?;
+        page.until(".toast", said).await?;
+        assert!(page.text(CHANGES).await?.contains("Status word"), "{content:?} changes nothing");
+    }
+    page.fill_in("Process output bytes", "99").await?;
+    assert!(page.about("Process output bytes").await?.contains("Allowed: 0 to 16"));
+    page.fill_in("Process output bytes", "many").await?;
+    assert!(page.about("Process output bytes").await?.contains("“many”"));
+    // What does not fit outlasts a change elsewhere.
+    page.tick("Swap parameter channel").await?;
+    assert_eq!(page.holds("Process output bytes").await?, "many");
     page.close().await
 }
 
+/// A file that the browser cannot read is no empty file.
 #[tokio::test(flavor = "multi_thread")]
-async fn what_was_typed_and_chosen_survives_a_reload() -> Result {
-    let page = Page::open(DESKTOP, false).await?;
-    page.paste("01 03 00 C8 00 03 84 35\n01 03 06 00 80 42 A4 F1 DE B0 F8").await?;
-    page.one("#device option[value=memograph-rsg45]").await?.click().await?;
-    page.settle().await?;
-    page.driver.refresh().await?;
-    page.one("#telegram-1").await?;
-    page.choose(1).await?;
-    assert_eq!(page.text(".detail h2").await?, "Unit 1 answers: Universal channel 1 = 82.4724, good.");
-    assert_eq!(page.value("return document.getElementById('device').value").await?, "memograph-rsg45");
-    page.paste("").await?;
-    page.driver.refresh().await?;
-    assert_eq!(page.text(".welcome h2").await?, "What does this telegram say?");
+async fn an_unreadable_file_changes_nothing() -> Result {
+    let page = Page::open_at("#/read", DESKTOP, false).await?;
+    page.before_loading(
+        "File.prototype.text = () => Promise.reject(new DOMException('gone', 'NotFoundError'))",
+    )
+    .await?;
+    page.go("#/devices").await?;
+    set_up(&page).await?;
+    let file = tempfile::NamedTempFile::new()?;
+    std::fs::write(file.path(), "outputs = 8\n")?;
+    let chooser = page.driver.find(By::Css(".changes input[type=file]")).await?;
+    chooser.send_keys(file.path().display().to_string()).await?;
+    page.until(".toast", "cannot be read").await?;
+    assert!(page.text(CHANGES).await?.contains("Process output data have 2 bytes."));
+    page.close().await
+}
+
+/// A browser that keeps nothing is told of.
+#[tokio::test(flavor = "multi_thread")]
+async fn storage_denied_or_full_is_told() -> Result {
+    for (script, said) in [
+        (
+            "Object.defineProperty(window, 'localStorage', { get() { throw new DOMException('no', 'SecurityError') } })",
+            "keeps nothing for this page",
+        ),
+        (
+            "Storage.prototype.setItem = () => { throw new DOMException('no', 'QuotaExceededError') }",
+            "has no room left for this page",
+        ),
+    ] {
+        let page = Page::open_at("#/read", DESKTOP, false).await?;
+        page.before_loading(script).await?;
+        page.go("#/devices").await?;
+        set_up(&page).await?;
+        page.until(".changes [role=alert]", said).await?;
+        assert!(page.text(CHANGES).await?.contains("Status word"), "it counts all the same");
+        assert_eq!(page.accessibility().await?, [""; 0]);
+        page.close().await?;
+    }
+    Ok(())
+}
+
+/// Two tabs do not overwrite each other.
+#[tokio::test(flavor = "multi_thread")]
+async fn another_tab_is_heard() -> Result {
+    let page = Page::open_at("#/devices", DESKTOP, false).await?;
+    page.one(".devices").await?;
+    let first = page.driver.window().await?;
+    let address = page.driver.current_url().await?.to_string();
+    let second = page.driver.new_tab().await?;
+    page.driver.switch_to_window(second).await?;
+    page.driver.goto(address).await?;
+    page.one(".devices").await?;
+    page.fill_in("Process input bytes", "8").await?;
+    page.driver.switch_to_window(first).await?;
+    page.until(CHANGES, "Process input data have 8 bytes.").await?;
+    page.fill_in("Process output bytes", "2").await?;
+    page.driver.switch_to_window(page.driver.windows().await?[1].clone()).await?;
+    page.until(CHANGES, "Process output data have 2 bytes.").await?;
+    assert!(page.text(CHANGES).await?.contains("Process input data have 8 bytes."));
+    page.close().await
+}
+
+/// The settings of a link count while it is looked at; one's own are a click away.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_link_brings_its_own_set_up() -> Result {
+    let page = Page::open_at("#/devices", DESKTOP, false).await?;
+    add(&page, "Registers you read", "actual speed").await?;
+    let link = page.fragment().await?;
+    page.press_button("Undo").await?;
+    page.fill_in("Process output bytes", "2").await?;
+    page.fragment().await?;
+    page.go(&link).await?;
+    page.until(".borrowed", "brings its own set-up").await?;
+    page.until(CHANGES, "Actual speed").await?;
+    assert_eq!(page.accessibility().await?, [""; 0]);
+    page.press_button("Use mine").await?;
+    page.until(CHANGES, "Process output data have 2 bytes.").await?;
+    assert_eq!(page.count(".borrowed").await?, 0);
+    page.go(&link).await?;
+    page.until(".borrowed", "Yours is kept").await?;
+    page.press_button("Keep the link’s").await?;
+    page.go("#/devices").await?;
+    page.until(CHANGES, "Actual speed").await?;
+    assert_eq!(page.count(".borrowed").await?, 0);
     page.close().await
 }

@@ -11,58 +11,29 @@ use crate::tools;
 /// Where the page goes.
 pub const DIST: &str = "dist";
 
-/// A binary of the root package that becomes a wasm file and a document.
-struct Module {
-    /// What its files are called.
-    name: &'static str,
-    /// Cargo keeps the name `build` for itself.
-    binary: &'static str,
-    features: &'static str,
-    /// Its files in `style/`.
-    styles: &'static str,
-    /// A binary that works for it in the background, with its features.
-    worker: Option<(&'static str, &'static str)>,
+/// The profile of the bundler.
+pub const TOOL: &str = "tool";
+
+/// How the page is compiled.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Build {
+    /// As it is published.
+    Release,
+    /// In a fraction of the time, for work on it: larger, slower, without compressed copies.
+    Dev,
 }
 
-/// The page's documents, each with a wasm file of its own: who reads telegrams need not wait for the
-/// forms that build them. The first is `index.html`.
-const MODULES: &[Module] = &[
-    module("decode", "decode-page", "page", "page,telegram,decode"),
-    Module {
-        worker: Some(("log-worker", "page,keys,captures")),
-        ..module("logs", "logs-page", "page", "page,telegram,decode,form,logs")
-    },
-    module("build", "build-page", "page,keys", "page,telegram,form,build"),
-    module("check", "check-page", "page", "page,form,check"),
-    module("sheet", "sheet-page", "page,keys", "page,form,sheet"),
-    module("devices", "devices-page", "page,keys", "page,form,devices"),
-];
-
-const fn module(
-    name: &'static str,
-    binary: &'static str,
-    features: &'static str,
-    styles: &'static str,
-) -> Module {
-    Module { name, binary, features, styles, worker: None }
-}
-
-pub fn run() -> Result {
+pub fn run(build: Build) -> Result {
     let start = Instant::now();
     tools::wasm_target()?;
     compile_bundler()?;
-    let mut arguments = vec![OsString::from(DIST)];
-    for module in MODULES {
-        let mut argument = OsString::from(format!("{}=", module.name));
-        argument.push(compile(module.binary, module.features, "page")?);
-        argument.push(format!("={}", module.styles));
-        if let Some((binary, features)) = module.worker {
-            argument.push(format!("={binary}="));
-            argument.push(compile(binary, features, "worker")?);
-        }
-        arguments.push(argument);
+    let page = compile(build)?;
+    let mut bundle = Command::new(bundler());
+    bundle.arg(DIST).arg(page);
+    if build == Build::Dev {
+        bundle.arg("--dev");
     }
-    steps::run(Command::new(bundler()).args(arguments))?;
+    steps::run(&mut bundle)?;
     println!("The page is in {DIST}/ after {}.", steps::seconds(start.elapsed()));
     Ok(())
 }
@@ -74,43 +45,36 @@ fn compile_bundler() -> Result {
     if !bundler().exists() {
         println!("Compiling the bundler with wasm-bindgen; this happens once and takes minutes.");
     }
-    steps::run(tools::cargo().args(["build", "--release", "--package", "bundle"]))
+    steps::run(tools::cargo().args(["build", "--profile", TOOL, "--package", "bundle"]))
 }
 
 fn bundler() -> PathBuf {
     let name = format!("bundle{}", std::env::consts::EXE_SUFFIX);
-    tools::target_folder().join("release").join(name)
+    tools::target_folder().join(TOOL).join(name)
 }
 
-/// Compiles a binary for the page in one of the profiles of `Cargo.toml`, and says where its wasm file
-/// is.
-fn compile(binary: &str, features: &str, profile: &str) -> Result<PathBuf> {
-    let remapped = local_paths().into_iter().map(|(path, name)| {
+/// Compiles the page, and says where its wasm file is.
+fn compile(build: Build) -> Result<PathBuf> {
+    let profile = match build {
+        Build::Release => "page",
+        Build::Dev => "page-dev",
+    };
+    // Parts of the page that differ in their types only are compiled once: a quarter less to download.
+    let mut flags = vec![OsString::from("--cfg=erase_components")];
+    flags.extend(local_paths().into_iter().map(|(path, name)| {
         let mut flag = OsString::from("--remap-path-prefix=");
         flag.push(path);
         flag.push(format!("={name}"));
         flag
-    });
-    let flags: Vec<OsString> = remapped.chain(flags_of(profile).iter().map(OsString::from)).collect();
+    }));
     steps::run(
         tools::cargo()
-            .args(["build", "--profile", profile, "--target", tools::WASM])
-            .args(["--no-default-features", "--features", features])
-            .args(["--package", "buslens-page", "--bin", binary])
+            .args(["build", "--profile", profile, "--target", tools::WASM, "--package", "buslens-page"])
             // Not RUSTFLAGS, which splits at spaces, and a path may have one.
             .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}".as_ref()))
             .env_remove("RUSTFLAGS"),
     )?;
-    Ok(tools::target_folder().join(tools::WASM).join(profile).join(format!("{binary}.wasm")))
-}
-
-/// What the compiler is told besides the profile.
-fn flags_of(profile: &str) -> &'static [&'static str] {
-    match profile {
-        // Browsers take longer to call their `memory.copy` than to copy what a telegram needs.
-        "worker" => &["-Ctarget-feature=-bulk-memory"],
-        _ => &[],
-    }
+    Ok(tools::target_folder().join(tools::WASM).join(profile).join("page.wasm"))
 }
 
 /// The folders of this machine whose names the compiler would write into the texts of panics, and

@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
+use crate::build::{self, Build};
 use crate::steps::{self, Result, Step};
-use crate::{build, fuzz, page_tests, size, supply, tools};
+use crate::{fuzz, page_tests, size, supply, tools};
 
 const STEPS: &[Step] = &[
     ("tools", tools),
     ("formatting", formatting),
     ("clippy", clippy),
-    ("clippy for wasm", clippy_for_wasm),
     ("the library without the page's libraries", lean_library),
     ("licences and sources of the libraries", supply::check),
     ("tests", tests),
@@ -19,7 +19,7 @@ const STEPS: &[Step] = &[
     ("documentation", documentation),
     ("the page", page),
     ("size of the page", || size::check(Path::new(build::DIST))),
-    ("the page in a browser", page_tests::run),
+    ("the page in a browser", || page_tests::run(&[])),
 ];
 
 pub fn run() -> Result {
@@ -47,13 +47,6 @@ fn clippy() -> Result {
     cargo(&["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"])
 }
 
-/// With the page's own profile: what it compiles for this machine then serves the page's build, too.
-fn clippy_for_wasm() -> Result {
-    let target = ["clippy", "--package", "buslens-page", "--profile", "page", "--target", tools::WASM];
-    let features = ["--no-default-features", "--features", "page,keys,captures", "--lib", "--bins"];
-    cargo(&[&target[..], &features, &["--", "--deny", "warnings"]].concat())
-}
-
 /// The library is for programs of every kind: a plain dependency on it must not bring in what only
 /// the page needs.
 fn lean_library() -> Result {
@@ -74,9 +67,9 @@ fn lean_library() -> Result {
 }
 
 fn tests() -> Result {
-    // The bundler's libraries are compiled optimized for the page anyway; once is enough.
+    // The bundler's libraries are compiled for the page anyway; once is enough.
     cargo(&["test", "--workspace", "--exclude", "page-tests", "--exclude", "bundle"])?;
-    cargo(&["test", "--release", "--package", "bundle"])
+    cargo(&["test", "--profile", build::TOOL, "--package", "bundle"])
 }
 
 /// Run with the rest already; here for what it counts: `966 of 966 facts`.
@@ -96,7 +89,7 @@ fn documentation() -> Result {
 }
 
 fn page() -> Result {
-    build::run()?;
+    build::run(Build::Release)?;
     build::check_no_local_path()
 }
 

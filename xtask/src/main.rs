@@ -19,14 +19,17 @@ use std::num::NonZero;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use build::Build;
 use steps::Result;
 
 const USAGE: &str = "\
 Usage: cargo xtask <command>
 
-  build              compiles the page into dist/, ready for any static web server
-  serve [--port N]   builds, serves dist/ on this machine and rebuilds after each change
+  build [--dev]      compiles the page into dist/, ready for any static web server;
+                     with --dev in a fraction of the time, and not optimized
+  serve [--port N]   builds with --dev, serves dist/ on this machine and rebuilds after each change
   test               runs every check, from the formatting to the page in a browser
+  test page [NAME]   only tests dist/ as it is in a browser, or those tests that are called so
   fuzz SECONDS [--seed N] [--only TARGET]
                      tries random inputs against the library's laws; --replay FILE tries one again
   mutants [--sample N] [--seed S]
@@ -42,9 +45,11 @@ fn main() -> ExitCode {
             println!("{USAGE}");
             return ExitCode::SUCCESS;
         }
-        ["build"] => |_| build::run(),
+        ["build"] => |_| build::run(Build::Release),
+        ["build", "--dev"] => |_| build::run(Build::Dev),
         ["serve"] | ["serve", "--port", _] => watch::serve,
         ["test"] => |_| check::run(),
+        ["test", "page", ..] => return done(go_to_root().and_then(|()| page_tests::run(&words[2..]))),
         ["fuzz", ref arguments @ ..] => return done(go_to_root().and_then(|()| fuzz::run(arguments))),
         ["mutants", ref arguments @ ..] => return done(go_to_root().and_then(|()| mutants::run(arguments))),
         ["reproducible"] => |_| reproducible::check(),

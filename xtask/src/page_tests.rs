@@ -20,7 +20,8 @@ pub const KEEP_DRIVER: &str = "keep-driver";
 /// How long a driver may take to come up, and to shut its browsers down.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-pub fn run() -> Result {
+/// Runs the page's tests, or those with one of `names` in their names.
+pub fn run(names: &[&str]) -> Result {
     let browser = tools::browser()?;
     let axe = tools::axe()?;
     let screenshots = tools::target_folder().join("page-tests").join("screenshots");
@@ -39,7 +40,9 @@ pub fn run() -> Result {
     steps::run(
         tools::cargo()
             // What tests measure is printed, too.
-            .args(["test", "--package", "page-tests", "--", "--show-output"])
+            .args(["test", "--package", "page-tests"])
+            .args(names)
+            .args(["--", "--show-output"])
             .env("BUSLENS_URL", page)
             .env("WEBDRIVER_URL", format!("http://127.0.0.1:{}", driver.port))
             .env("BUSLENS_CHROMIUM", &browser.chromium)

@@ -5,11 +5,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
+use crate::build::{self, Build};
+use crate::server;
 use crate::steps::{self, Result};
-use crate::{build, server};
 
 /// What the page is made of.
-const WATCHED: &[&str] = &["src", "crates", "style", "page.html", "Cargo.toml", "bundle/src"];
+const WATCHED: &[&str] = &["src", "crates", "style", "index.html", "Cargo.toml", "bundle/src"];
 
 /// How often the files are looked at. Looking at some dozen files costs next to nothing, works on
 /// every system and file system, and needs no library.
@@ -17,7 +18,7 @@ const PAUSE: Duration = Duration::from_millis(300);
 
 pub fn serve(wanted: u16) -> Result {
     let mut built_from = look();
-    build::run()?;
+    build::run(Build::Dev)?;
 
     let listener = server::listen(wanted)?;
     let port = server::port(&listener)?;
@@ -46,7 +47,7 @@ pub fn serve(wanted: u16) -> Result {
         println!("\nChanged: {}", names(&changed(&built_from, &now)));
         built_from = now;
         let start = Instant::now();
-        match build::run() {
+        match build::run(Build::Dev) {
             Ok(()) => println!("Reload {address} to see it."),
             Err(sentence) => println!(
                 "{sentence}\nStill serving the page as it was (after {}).",

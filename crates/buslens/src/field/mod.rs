@@ -61,6 +61,7 @@ impl Span {
 
 /// Who speaks: the client (the manuals' master) asks, the server (slave) answers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "json", derive(serde::Serialize, serde::Deserialize))]
 pub enum Direction {
     Request,
     Response,

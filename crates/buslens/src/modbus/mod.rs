@@ -95,7 +95,7 @@ pub static OTHER_KINDS: &[&Kind] = &[&exception::RESPONSE, &unknown::REQUEST, &u
 /// Telegrams as the standard and the manuals lay them out.
 pub static STANDARD: Dialect = Dialect {
     key: "standard",
-    label: "as the manuals say",
+    label: "as in the manual",
     note: "Every telegram as its manual or the standard describes it.",
     kinds: &[],
 };

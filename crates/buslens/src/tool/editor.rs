@@ -347,7 +347,7 @@ impl Telegram for Asking {
     }
 }
 
-static UNIT: Spec = Spec::new("unit", "Unit or station").role(Role::Address).note("Whom the request is for.");
+static UNIT: Spec = Spec::new("unit", "Unit address").role(Role::Address).note("Address of the device.");
 
 #[cfg(test)]
 mod tests {
@@ -401,8 +401,13 @@ mod tests {
     #[test]
     fn a_computed_number_can_be_overridden_and_given_back() {
         let mut editor = editor(&[1, 3, 0, 200, 0, 3, 0x84, 0x35]);
-        editor.edit("crc", Change::Enter("0"));
-        assert_eq!(editor.bytes().unwrap()[6..], [0, 0]);
+        editor.edit("crc", Change::Enter("12 34"));
+        assert_eq!(editor.bytes().unwrap()[6..], [0x12, 0x34], "as on the wire");
+        editor.edit("crc", Change::Enter("12"));
+        assert_eq!(
+            editor.entries.misfits[0].message.to_string(),
+            "“12” is not 2 bytes in hex, as on the wire"
+        );
         editor.edit("crc", Change::Enter(""));
         assert_eq!(editor.bytes().unwrap()[6..], [0x84, 0x35]);
     }

@@ -126,6 +126,17 @@ impl Entries {
         self.form = fresh;
     }
 
+    /// Types again what did not fit in `typed`, where there still is such an entry: nothing that was typed
+    /// gets lost when something else changes the telegram.
+    pub fn keep_misfits(&mut self, telegram: &mut dyn Telegram, typed: &Self) {
+        let texts = texts(&typed.form);
+        for misfit in &typed.misfits {
+            if let Some((path, text)) = texts.iter().find(|(path, _)| *path == misfit.path) {
+                self.edit(telegram, path, Change::Enter(text));
+            }
+        }
+    }
+
     /// Every entry that is not as in `default`, as path and text, in an order in which
     /// [`enter_all`](Self::enter_all) takes them.
     pub fn changed(&self, default: &Self) -> Vec<(String, String)> {

@@ -146,7 +146,7 @@ fn process(w: &mut dyn Walker, spec: &'static Spec, words: &mut Vec<ProcessWord>
     })
 }
 
-static DIALECT: Spec = Spec::new("dialect", "Layout of functions 100 and 101")
+static DIALECT: Spec = Spec::new("dialect", "Frame layout of functions 100 and 101")
     .names(&DIALECT_NAMES)
     .note("The figures of the manual cannot be read for sure: what the device at hand speaks.")
     .source("KEB COMBIVERT F5 Modbus operator, 3");

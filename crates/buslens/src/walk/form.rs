@@ -2,7 +2,8 @@
 
 use super::{Algorithm, Deviation, Deviations, Items, Part, Path, Telegram, WINDOW, Walk, Walker};
 use crate::field::{
-    Argument, Format, Message, Numbering, Spec, escaped, hex, hex_value, number_text, parse_float, unescaped,
+    Argument, Format, Message, Numbering, Order, Role, Spec, escaped, hex, hex_value, number_text,
+    parse_float, unescaped,
 };
 use crate::message;
 
@@ -255,6 +256,22 @@ fn parse_bytes(text: &str) -> Result<Vec<u8>, Message> {
     })
 }
 
+/// Reads check bytes as they are on the wire, the first one most significant: `84 35`, `8435h`.
+fn parse_check(text: &str, width: usize) -> Result<u64, Message> {
+    let lower = text.trim().to_ascii_lowercase();
+    if lower.starts_with("0x") || lower.ends_with('h') {
+        return parse_number(&lower, width);
+    }
+    let bytes = parse_bytes(text).ok().filter(|bytes| bytes.len() == width);
+    bytes.map(|bytes| Order::Big.number(&bytes)).ok_or_else(|| {
+        message!(
+            "“{text}” is not {bytes} in hex, as on the wire",
+            text = text.trim().to_owned(),
+            bytes = Message::bytes(width)
+        )
+    })
+}
+
 /// Value to entries.
 struct Show<'a> {
     level: Vec<Entry>,
@@ -278,7 +295,11 @@ impl Show<'_> {
 
     fn computed(&mut self, spec: &'static Spec, width: usize) {
         let path = self.path.join(spec.key);
-        let text = self.deviations.value(&path).map_or(String::new(), |raw| hex_value(raw, width));
+        // A check is known by its bytes, a count by its number.
+        let text = self.deviations.value(&path).map_or(String::new(), |raw| match spec.role {
+            Role::Check => hex(&raw.to_be_bytes()[8 - width..]),
+            _ => hex_value(raw, width),
+        });
         let computed = self.computed.value(&path).unwrap_or(0);
         self.entry(spec, Content::Computed { width, computed, text });
     }
@@ -405,7 +426,11 @@ impl<'a> Fill<'a> {
             && !text.trim().is_empty()
         {
             let path = self.path.join(spec.key);
-            if let Some(raw) = self.parsed(path.clone(), parse_number(text, *width)) {
+            let parsed = match spec.role {
+                Role::Check => parse_check(text, *width),
+                _ => parse_number(text, *width),
+            };
+            if let Some(raw) = self.parsed(path.clone(), parsed) {
                 self.deviations.set(path, Deviation::Value(raw));
             }
         }

@@ -1,15 +1,20 @@
-use super::{Entry, Log, Role, Source};
+#[cfg(feature = "json")]
+use serde::{Deserialize, Serialize};
+
+use super::{Entry, Log, Role, Source, State};
 use crate::field::Direction;
 use crate::frame::{Speaker, Verdict};
 
 /// Which telegrams of a log are to be seen. Whatever is `None` lets all through.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "json", derive(Serialize, Deserialize))]
 pub struct Filter {
     pub port: Option<u16>,
     pub unit: Option<u8>,
     pub function: Option<u8>,
     pub direction: Option<Direction>,
     pub wanted: Wanted,
+    pub state: Option<State>,
     /// First and last microsecond.
     pub times: Option<(i64, i64)>,
     /// First and last index.
@@ -20,6 +25,7 @@ pub struct Filter {
 
 /// Which telegrams by what happened to them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "json", derive(Serialize, Deserialize))]
 pub enum Wanted {
     #[default]
     All,
@@ -73,10 +79,10 @@ impl Wanted {
         Self::ALL.into_iter().find(|wanted| wanted.key() == key)
     }
 
-    fn wants(self, entry: &Entry) -> bool {
+    fn wants(self, log: &Log, entry: &Entry) -> bool {
         match self {
             Self::All => true,
-            Self::Errors => is_error(entry),
+            Self::Errors => log.state(entry).is_wrong(),
             Self::CheckFailed => entry.verdict == Verdict::Wrong,
             Self::Unanswered => entry.unanswered(),
             Self::Exceptions => entry.refuses(),
@@ -114,7 +120,8 @@ impl Log {
                 && filter.unit.is_none_or(|unit| entry.unit == Some(unit))
                 && filter.function.is_none_or(|function| entry.plain_function() == function && entry.counts())
                 && filter.direction.is_none_or(|direction| entry.direction == direction && entry.counts())
-                && filter.wanted.wants(entry)
+                && filter.wanted.wants(self, entry)
+                && filter.state.is_none_or(|state| self.state(entry) == state)
                 && filter
                     .times
                     .is_none_or(|(from, to)| entry.time().is_some_and(|time| (from..=to).contains(&time)))

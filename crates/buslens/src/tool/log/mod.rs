@@ -3,9 +3,12 @@
 //! A [`Log`] keeps 40 bytes and the telegram's own bytes for each telegram. The tree of fields is
 //! made for those that somebody looks at, by [`Log::report`], which reads their lines again.
 
+mod excerpt;
 mod filter;
 mod findings;
 mod format;
+mod lanes;
+mod list;
 #[cfg(feature = "captures")]
 mod packets;
 mod pictures;
@@ -14,9 +17,12 @@ mod story;
 
 pub use crate::dialogue::traffic::{Dialog, Entry, Minutes, Role, Statistics};
 pub use crate::text::{LAYOUTS, Layout, Marks, Numbers, Place};
+pub use excerpt::Excerpt;
 pub use filter::{Filter, Wanted, is_error};
 pub use findings::Finding;
 pub use format::{Format, Refusal};
+pub use lanes::{Lane, Lanes, Mark};
+pub use list::{Overview, Row, State, Unit, brief};
 pub use pictures::{Bucket, Point, Timeline};
 pub use story::time_text;
 

@@ -1,0 +1,128 @@
+//! The app: the views by address, and what outlasts them.
+
+use std::rc::Rc;
+use std::time::Duration;
+
+use leptos::ev::{DragEvent, MouseEvent};
+use leptos::prelude::*;
+
+use crate::address::{Address, Shows, View};
+use crate::browser::typing::is_typed_into;
+use crate::components::header::Header;
+use crate::components::toast::{ToastList, Toasts};
+use crate::views::build::BuildState;
+use crate::views::check::CheckState;
+use crate::views::devices::{Borrowed, DeviceSettings};
+use crate::views::later::{LaterView, LaterViews};
+use crate::views::read::{Read, ReadState};
+use crate::views::sheet::SheetState;
+use buslens::tool::link::Link;
+
+#[component]
+pub fn App() -> impl IntoView {
+    let address = Address::new();
+    let toasts = Toasts::new();
+    provide_context(address);
+    provide_context(toasts);
+    let devices = DeviceSettings::new();
+    provide_context(devices);
+    let read = ReadState::new();
+    let build = BuildState::new();
+    let check = CheckState::new();
+    provide_context(read);
+    provide_context(build);
+    provide_context(check);
+    provide_context(SheetState::new());
+    let later = LaterViews::new();
+    provide_context(later);
+    // Whoever looks at what there is has time for the rest to come.
+    set_timeout(move || later.load(), Duration::from_millis(1500));
+    address.keep(Rc::new(States { read, build, check, devices, toasts }));
+
+    Effect::new(move |_| document().set_title(&format!("{} - Buslens", address.view().label())));
+    let main = NodeRef::<leptos::html::Main>::new();
+    // The address holds the view, and so no place in the page.
+    let skip = move |event: MouseEvent| {
+        event.prevent_default();
+        if let Some(main) = main.get_untracked() {
+            let _ = main.focus();
+        }
+    };
+    let dropped = move |event: DragEvent| {
+        let Some(data) = event.data_transfer() else { return };
+        let Some(file) = data.files().and_then(|files| files.get(0)) else {
+            // Text that is moved within a field is the browser's to move.
+            let text = data.get_data("text").unwrap_or_default();
+            if !text.is_empty() && !is_typed_into(event.target()) {
+                event.prevent_default();
+                read.load(text);
+            }
+            return;
+        };
+        event.prevent_default();
+        let folder = data.items().get(0).and_then(|item| item.webkit_get_as_entry().ok().flatten());
+        if folder.is_some_and(|entry| entry.is_directory()) {
+            return toasts.say(format!("{} is a folder: open a file in it.", file.name()));
+        }
+        if address.view_now() == View::Devices {
+            return devices.open(file);
+        }
+        read.open(file);
+        if address.view_now() != View::Read {
+            address.go_to(View::Read);
+        }
+    };
+    let view = move || match address.view() {
+        View::Read => view! { <Read /> }.into_any(),
+        View::Build => view! { <LaterView which=|later| later.build /> }.into_any(),
+        View::Check => view! { <LaterView which=|later| later.check /> }.into_any(),
+        View::Devices => view! { <LaterView which=|later| later.devices /> }.into_any(),
+        View::Sheet => view! { <LaterView which=|later| later.sheet /> }.into_any(),
+    };
+    view! {
+        <div class="app" on:dragover=|event| event.prevent_default() on:drop=dropped>
+            <a class="skip" href="#main" on:click=skip>
+                "Skip to the content"
+            </a>
+            <Header />
+            <Borrowed />
+            <main id="main" tabindex="-1" node_ref=main>
+                {view}
+            </main>
+            <ToastList />
+        </div>
+    }
+}
+
+/// What the views show.
+struct States {
+    read: ReadState,
+    build: BuildState,
+    check: CheckState,
+    devices: DeviceSettings,
+    toasts: Toasts,
+}
+
+impl Shows for States {
+    fn link(&self, view: View) -> Link {
+        match view {
+            View::Read | View::Sheet => self.read.link(),
+            View::Build => self.build.link(),
+            View::Check => self.check.link(),
+            View::Devices => self.devices.link(),
+        }
+    }
+
+    fn follow(&self, view: View, link: Link) {
+        match view {
+            View::Read | View::Sheet => self.read.follow(link),
+            View::Build => self.build.follow(link),
+            View::Check => self.check.follow(link),
+            View::Devices => self.devices.follow(link),
+        }
+    }
+
+    fn refuse(&self, why: &str) {
+        self.toasts.say(why);
+    }
+}

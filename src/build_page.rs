@@ -1,5 +1,0 @@
-//! The page that builds telegrams.
-
-fn main() {
-    buslens_page::app::build();
-}

@@ -1,0 +1,282 @@
+//! The bytes of a telegram in a row, a block for each field.
+
+use leptos::ev::KeyboardEvent;
+use leptos::html;
+use leptos::prelude::*;
+
+use super::roving;
+use buslens::field::{Field, Numbering, Role, Severity, Span, Value, leaves};
+use buslens::tool::{Detail, Entry};
+
+/// Bytes that a person looks at, and which one of them is explained.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Chosen {
+    pub span: Span,
+    pub at: usize,
+}
+
+/// What is under the pointer and what is chosen: the strip and the table of fields light up together.
+#[derive(Clone, Copy)]
+pub struct Lights {
+    pub pointed: RwSignal<Option<Span>>,
+    pub chosen: RwSignal<Option<Chosen>>,
+}
+
+impl Lights {
+    pub fn new() -> Self {
+        Self { pointed: RwSignal::new(None), chosen: RwSignal::new(None) }
+    }
+
+    pub fn clear(&self) {
+        self.pointed.set(None);
+        self.chosen.set(None);
+    }
+
+    /// Whether the pointer is over bytes of `span`.
+    pub fn points_at(&self, span: Span) -> bool {
+        self.pointed.get().is_some_and(|pointed| overlap(pointed, span))
+    }
+
+    /// Whether bytes of `span` are chosen.
+    pub fn holds(&self, span: Span) -> bool {
+        self.chosen.get().is_some_and(|chosen| overlap(chosen.span, span))
+    }
+}
+
+const fn overlap(one: Span, other: Span) -> bool {
+    one.from < other.to && other.from < one.to
+}
+
+/// A field with its bytes.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Block {
+    /// The field's whole name, for screen readers.
+    pub name: String,
+    /// What stands above the bytes.
+    pub label: String,
+    /// What stands below them.
+    pub caption: String,
+    pub class: &'static str,
+    pub faulty: bool,
+    pub span: Span,
+    pub bytes: Vec<u8>,
+}
+
+/// More bytes than a telegram can have are not worth a cell each.
+const MOST: usize = 300;
+
+/// The strip.
+#[component]
+pub fn ByteStrip(
+    #[prop(into)] blocks: Signal<Vec<Block>>,
+    lights: Lights,
+    /// `large`, `small` or `tiny`; in between without.
+    #[prop(into, optional)]
+    size: String,
+    #[prop(into, optional)] label: Option<String>,
+) -> impl IntoView {
+    let strip = NodeRef::<html::Ol>::new();
+    let length = Memo::new(move |_| blocks.with(|all| all.last().map_or(0, |block| block.span.to)));
+    // The byte that Tab leads to.
+    let stop = RwSignal::new(0);
+    let stop_now = Memo::new(move |_| stop.get().min(length.get().min(MOST).saturating_sub(1)));
+    let is_stop = Selector::new(move || stop_now.get());
+    let is_chosen = Selector::new(move || lights.chosen.get().map(|chosen| chosen.at));
+    let choose = move |at: usize| {
+        stop.set(at);
+        let span = blocks
+            .with_untracked(|all| all.iter().find(|block| block.span.contains(at)).map(|block| block.span));
+        lights.chosen.set(span.map(|span| Chosen { span, at }));
+    };
+    let keys = move |event: KeyboardEvent| {
+        if event.key() == "Escape" && lights.chosen.get_untracked().is_some() {
+            event.stop_propagation();
+            lights.chosen.set(None);
+        } else if let Some(at) =
+            strip.get_untracked().and_then(|strip| roving::follow(&event, &strip, "button"))
+        {
+            choose(at);
+        }
+    };
+    let shown = move || {
+        blocks.with(|all| all.iter().filter(|block| block.span.from < MOST).cloned().collect::<Vec<_>>())
+    };
+    let block = move |block: Block| {
+        let Block { name, label, caption, class, faulty, span, bytes } = block;
+        let cell = |(at, byte): (usize, u8)| {
+            let (is_stop, is_chosen) = (is_stop.clone(), is_chosen.clone());
+            view! {
+                <button
+                    type="button"
+                    tabindex=move || if is_stop.selected(&at) { "0" } else { "-1" }
+                    aria-pressed=move || is_chosen.selected(&Some(at)).to_string()
+                    aria-label=format!("{byte:02X}, byte {at}, {name}")
+                    on:click=move |_| choose(at)
+                >
+                    {format!("{byte:02X}")}
+                </button>
+            }
+        };
+        view! {
+            <li
+                class=class
+                class:faulty=faulty
+                class:pointed=move || lights.points_at(span)
+                class:chosen=move || lights.holds(span)
+                on:pointerenter=move |_| lights.pointed.set(Some(span))
+            >
+                <span class="label" aria-hidden="true">{label}</span>
+                <span class="cells">{(span.from..MOST).zip(bytes).map(cell).collect_view()}</span>
+                <span class="caption" aria-hidden="true">{caption}</span>
+            </li>
+        }
+    };
+    let more = move || {
+        length.get().checked_sub(MOST).filter(|more| *more > 0).map(|more| {
+            view! { <li class="rest">{format!("and {more} more bytes")}</li> }
+        })
+    };
+    view! {
+        <ol
+            node_ref=strip
+            class=format!("byte-strip {size}")
+            aria-label=label.unwrap_or_else(|| "Bytes. Arrow keys go from byte to byte.".to_owned())
+            on:keydown=keys
+            on:pointerleave=move |_| lights.pointed.set(None)
+        >
+            <For each=shown key=Block::clone children=block />
+            {more}
+        </ol>
+    }
+}
+
+/// The class that gives a role its colour.
+pub const fn role_class(role: Role) -> &'static str {
+    match role {
+        Role::Unit | Role::Function | Role::Count => "role-head",
+        Role::Address => "role-place",
+        Role::Data => "role-data",
+        Role::Status => "role-status",
+        Role::Check => "role-check",
+        Role::Unknown => "role-unknown",
+    }
+}
+
+/// Whether the field has an error.
+pub fn is_faulty(field: &Field) -> bool {
+    field.problems.iter().any(|problem| problem.severity == Severity::Error)
+}
+
+/// The blocks of a telegram: its fields, those of the device's manual in the place of bare registers.
+pub fn blocks(detail: &Detail, bytes: &[u8]) -> Vec<Block> {
+    fields_by_byte(detail).into_iter().map(|leaf| block(leaf, bytes)).collect()
+}
+
+fn block(leaf: &Field, bytes: &[u8]) -> Block {
+    let name = leaf.label().to_string();
+    let label = match leaf.number {
+        None => leaf.spec.short.to_owned(),
+        Some(Numbering::At(_)) => name.rsplit(' ').next().unwrap_or_default().to_owned(),
+        Some(Numbering::Offset(n)) => format!("+{n}"),
+    };
+    Block {
+        name,
+        label,
+        caption: caption(leaf),
+        class: role_class(leaf.spec.role),
+        faulty: is_faulty(leaf),
+        span: leaf.span,
+        bytes: leaf.span.of(bytes).to_vec(),
+    }
+}
+
+/// The value in a few letters.
+fn caption(leaf: &Field) -> String {
+    match &leaf.value {
+        Value::Check(check) if check.ok() => "valid".to_owned(),
+        Value::Check(check) => format!("not {}", check.computed_bytes()),
+        Value::Number { raw, .. } => match leaf.spec.name(*raw) {
+            Some(name) => name.label.to_owned(),
+            None if !leaf.spec.bits.is_empty() => leaf.meaning().map_or(String::new(), |it| it.to_string()),
+            None => leaf.value_text(),
+        },
+        // "read" of "Read holding registers": the field table has all of it.
+        Value::Selector { chosen, .. } => chosen.label.split(' ').next().unwrap_or_default().to_lowercase(),
+        Value::Missing { .. } => "cut off".to_owned(),
+        Value::Group | Value::Bytes => String::new(),
+        Value::Text(_) => leaf.value_text(),
+    }
+}
+
+/// Where the bytes of a form's entry stand in the telegram.
+pub fn span_of(detail: &Detail, entry: &Entry) -> Option<Span> {
+    let fits =
+        |leaf: &&Field| leaf.spec == entry.spec && (entry.number.is_none() || leaf.number == entry.number);
+    fields_by_byte(detail).into_iter().find(fits).map(|leaf| leaf.span)
+}
+
+/// The leaves in the order of their bytes, each byte in one of them.
+fn fields_by_byte(detail: &Detail) -> Vec<&Field> {
+    let named = detail.device.blocks.iter().flat_map(|block| leaves(std::slice::from_ref(&block.field)));
+    // What is only asked for stands where it is named, and that field says more.
+    let mut found: Vec<&Field> = Vec::new();
+    for leaf in named.filter(|leaf| !matches!(leaf.value, Value::Group) && !leaf.span.is_empty()) {
+        if found.iter().all(|other| !overlap(other.span, leaf.span)) {
+            found.push(leaf);
+        }
+    }
+    let bare = leaves(&detail.fields).into_iter().filter(|leaf| !leaf.span.is_empty());
+    let (over, plain): (Vec<&Field>, Vec<&Field>) =
+        bare.partition(|leaf| found.iter().any(|named| overlap(named.span, leaf.span)));
+    // A named field that covers a part of a bare one only would leave bytes out.
+    let covered = |leaf: &&&Field| {
+        (leaf.span.from..leaf.span.to).all(|at| found.iter().any(|named| named.span.contains(at)))
+    };
+    let exact = found.iter().all(|named| {
+        (named.span.from..named.span.to).all(|at| over.iter().any(|leaf| leaf.span.contains(at)))
+    });
+    let mut all = plain;
+    if exact && over.iter().filter(covered).count() == over.len() {
+        all.extend(found);
+    } else {
+        all.extend(over);
+    }
+    all.sort_by_key(|leaf| leaf.span.from);
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use buslens::tool::{Options, Profile, decode};
+
+    fn labels(text: &str, device: &str) -> Vec<String> {
+        let report = decode(text, Options { device: Profile::of(device), ..Options::default() });
+        let last = report.telegrams.len() - 1;
+        let bytes = &report.telegrams[last].line.bytes;
+        let blocks = blocks(&report.detail(last).unwrap(), bytes);
+        let tiled: Vec<u8> = blocks.iter().flat_map(|block| block.bytes.clone()).collect();
+        assert_eq!(tiled, *bytes, "each byte stands in one block");
+        blocks.into_iter().map(|block| format!("{} {}", block.label, block.caption)).collect()
+    }
+
+    const PAIR: &str = "01 03 00 C8 00 03 84 35\n01 03 06 00 80 42 A4 F1 DE B0 F8";
+
+    #[test]
+    fn the_device_names_registers() {
+        let bare = labels(PAIR, "");
+        assert_eq!(bare[3..6], ["200 128", "201 17060", "202 61918"]);
+        let named = labels(PAIR, "memograph-rsg45");
+        assert!(named.contains(&"Value 82.4724".to_owned()), "{named:?}");
+        assert_eq!(named.last().unwrap(), "CRC valid");
+    }
+
+    #[test]
+    fn cut_telegrams_have_their_bytes_once() {
+        for device in ["", "memograph-rsg45", "keb-f5-modbus"] {
+            for length in 3..PAIR.len() {
+                labels(&PAIR[..length], device);
+            }
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! What may have happened to a telegram whose check failed.
+
+use leptos::prelude::*;
+
+use super::copy_button::CopyButton;
+use super::icon::{Glyph, Icon};
+use super::telegram::Shown;
+use crate::address::{View, href};
+use buslens::field::{Span, hex};
+use buslens::tool::link::Link;
+use buslens::tool::{Explanation, Options};
+
+/// The causes, best first. The first is open.
+#[component]
+pub fn Causes(shown: Shown) -> impl IntoView {
+    let warning = shown.undecidable.as_ref().map(|why| why.sentence() + ".");
+    let causes: Vec<_> = shown
+        .causes
+        .iter()
+        .enumerate()
+        .map(|(index, cause)| view! { <Cause shown=shown.clone() cause=cause.clone() open=index == 0 /> })
+        .collect();
+    (!causes.is_empty()).then(|| {
+        view! {
+            <section class="part causes">
+                <h3>"What may have happened"</h3>
+                {warning.map(|warning| view! { <p class="advice"><Icon glyph=Glyph::Warning />{warning}</p> })}
+                <ol>{causes}</ol>
+            </section>
+        }
+    })
+}
+
+#[component]
+fn Cause(shown: Shown, cause: Explanation, open: bool) -> impl IntoView {
+    let found = shown.bytes().to_vec();
+    let right = cause.hypothesis.bytes.clone();
+    let options = Options {
+        protocol: cause.hypothesis.protocol.or(Some(shown.telegram.choice.protocol)),
+        direction: None,
+        ..shown.options.clone()
+    };
+    let both = Link { telegram: 1, ..Link::to(format!("{}\n{}", hex(&found), hex(&right)), options) };
+    let title = cause.hypothesis.text(&found).sentence() + ".";
+    let odds = format!("By chance: {}. {}.", cause.hypothesis.odds(), cause.sense().sentence());
+    let copied = hex(&right);
+    let said = cause.said.sentence() + ".";
+    view! {
+        <li>
+            <details open=open>
+                <summary>{title}</summary>
+                <div class="compared">
+                    <span>"Received"</span>
+                    <Marked bytes=found spans=cause.removed.clone() class="bad" />
+                    <span>"Corrected"</span>
+                    <Marked bytes=right spans=cause.added.clone() class="good" />
+                </div>
+                <p>"It would say: " <strong>{said}</strong></p>
+                <p class="note">{odds}</p>
+                <div class="acts">
+                    <CopyButton text=copied label="Copy the corrected bytes" class="low" />
+                    <a class="button low" href=href(View::Read, &both)>"Open both"</a>
+                </div>
+            </details>
+        </li>
+    }
+}
+
+/// Bytes with those of `spans` marked.
+#[component]
+fn Marked(bytes: Vec<u8>, spans: Vec<Span>, class: &'static str) -> impl IntoView {
+    let byte = |(at, byte): (usize, &u8)| {
+        let marked = spans.iter().any(|span| span.contains(at));
+        let text = format!("{byte:02X}");
+        match marked {
+            true => view! { <mark class=class>{text}</mark> " " }.into_any(),
+            false => format!("{text} ").into_any(),
+        }
+    };
+    let cells: Vec<_> = bytes.iter().enumerate().map(byte).collect();
+    view! { <code>{cells}</code> }
+}

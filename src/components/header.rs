@@ -1,0 +1,176 @@
+//! The line on top: name, views, promise, and what concerns the whole page.
+
+use leptos::ev::{self, KeyboardEvent};
+use leptos::prelude::*;
+use leptos::task::spawn_local;
+use leptos::wasm_bindgen::JsCast;
+use web_sys::HtmlElement;
+
+use super::copy_button::copy;
+use super::dialog::Dialog;
+use super::icon::{Glyph, Icon};
+use super::menu::{Menu, MenuItem};
+use super::toast::Toasts;
+use crate::address::{Address, View};
+use crate::browser::storage;
+use crate::browser::typing::is_typed_into;
+
+/// Where the theme is kept. The boot script reads it, too, so that the page comes up in the right colours.
+const THEME: &str = "theme";
+
+/// The views that the line leads to.
+const VIEWS: [(View, Glyph); 4] = [
+    (View::Read, Glyph::Read),
+    (View::Build, Glyph::Build),
+    (View::Check, Glyph::Check),
+    (View::Devices, Glyph::Devices),
+];
+
+#[component]
+pub fn Header() -> impl IntoView {
+    let address = expect_context::<Address>();
+    let is_current =
+        move |view| address.view() == view || (view == View::Read && address.view() == View::Sheet);
+    let links = VIEWS.map(|(view, glyph)| {
+        view! {
+            <a href=format!("#/{}", view.key()) aria-current=move || is_current(view).then_some("page")>
+                <Icon glyph />
+                {view.label()}
+            </a>
+        }
+    });
+    view! {
+        <header class="top">
+            <h1>
+                <svg viewBox="0 0 20 20" aria-hidden="true">
+                    <path d="M2 4h16M2 9h5M2 14h4M12 8a4 4 0 1 1 0 8 4 4 0 0 1 0-8zM15 15l3 3" />
+                </svg>
+                "Buslens"
+            </h1>
+            <nav class="views" aria-label="Views">
+                {links.into_iter().collect_view()}
+            </nav>
+            <div class="end">
+                <span class="promise">
+                    <Icon glyph=Glyph::Lock />
+                    <span>"Nothing leaves this page"</span>
+                </span>
+                <CopyLink />
+                <Theme />
+                <Keys />
+            </div>
+        </header>
+    }
+}
+
+#[component]
+fn CopyLink() -> impl IntoView {
+    let address = expect_context::<Address>();
+    let toasts = expect_context::<Toasts>();
+    let give = move |_| {
+        spawn_local(async move {
+            let Some(link) = address.link().await else {
+                return toasts.say(
+                    "This is too long for a link, even compressed: mail programs and chats cut links of more \
+                     than 30,000 characters. Send it as a file.",
+                );
+            };
+            if copy(toasts, link).await {
+                toasts.say("The link is copied. It holds all that is shown; no server sees it.");
+            }
+        });
+    };
+    view! {
+        <button type="button" class="button plain" aria-label="Copy link" on:click=give>
+            <Icon glyph=Glyph::Link />
+            <span class="text">"Copy link"</span>
+        </button>
+    }
+}
+
+#[component]
+fn Theme() -> impl IntoView {
+    let choose = move |theme: &'static str| {
+        Callback::new(move |()| {
+            if let Some(root) = document().document_element() {
+                let _ = root.set_attribute("data-theme", theme);
+            }
+            // Where it is not kept, it is chosen again at the next visit.
+            let _ = storage::keep(THEME, theme);
+        })
+    };
+    view! {
+        <Menu label="Theme" glyph=Glyph::Sun icon_only=true at_end=true>
+            <MenuItem on_choose=choose("")>"As the system has it"</MenuItem>
+            <MenuItem on_choose=choose("light")>"Light"</MenuItem>
+            <MenuItem on_choose=choose("dark")>"Dark"</MenuItem>
+        </Menu>
+    }
+}
+
+const KEYS: [(&str, &str); 9] = [
+    ("?", "shows this list"),
+    ("/", "goes to the input, or to the search of what is shown"),
+    ("Tab, Shift + Tab", "go from part to part; bytes, fields and telegrams are one stop each"),
+    ("Arrow keys", "go from byte to byte, from field to field, from telegram to telegram"),
+    ("← →", "in fields: close and open a group"),
+    ("Home, End", "go to the first and the last"),
+    ("Esc", "lets go of the chosen byte, closes a menu"),
+    ("Ctrl + V", "anywhere in Read: pastes telegrams or a log in the place of the input"),
+    ("Alt + ←, Alt + →", "go back and forward between what was shown"),
+];
+
+/// The keys that do something, and the list of them.
+#[component]
+fn Keys() -> impl IntoView {
+    let open = RwSignal::new(false);
+    let pressed = window_event_listener(ev::keydown, move |event: KeyboardEvent| {
+        if is_typed_into(event.target()) || event.ctrl_key() || event.meta_key() || event.alt_key() {
+            return;
+        }
+        match event.key().as_str() {
+            "?" => open.set(true),
+            "/" => {
+                event.prevent_default();
+                // The first field of a view is what somebody types into first.
+                let field =
+                    document().query_selector("main textarea, main input[type=search], main input").ok();
+                if let Some(field) = field.flatten().and_then(|field| field.dyn_into::<HtmlElement>().ok()) {
+                    let _ = field.focus();
+                }
+            }
+            _ => {}
+        }
+    });
+    on_cleanup(move || pressed.remove());
+    view! {
+        <button
+            type="button"
+            class="button plain icon-only keys-button"
+            aria-label="Keyboard"
+            on:click=move |_| open.set(true)
+        >
+            <Icon glyph=Glyph::Help />
+        </button>
+        <Dialog open title="Keyboard">
+            <KeyList />
+        </Dialog>
+    }
+}
+
+#[component]
+fn KeyList() -> impl IntoView {
+    let key = |(key, deed): &(&'static str, &'static str)| {
+        view! {
+            <dt>
+                <kbd>{*key}</kbd>
+            </dt>
+            <dd>{*deed}</dd>
+        }
+    };
+    view! {
+        <div class="keys">
+            <dl>{KEYS.iter().map(key).collect_view()}</dl>
+        </div>
+    }
+}

@@ -1,5 +1,0 @@
-//! The page that reads telegrams.
-
-fn main() {
-    buslens_page::app::decode();
-}

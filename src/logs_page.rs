@@ -1,5 +1,0 @@
-//! The page that shows logs.
-
-fn main() {
-    buslens_page::app::logs();
-}

@@ -1,0 +1,114 @@
+//! The search for what to build.
+
+use leptos::prelude::*;
+
+use super::search::Found;
+use super::state::BuildState;
+use crate::components::combobox::Combobox;
+use crate::components::icon::{Glyph, Icon};
+use buslens::field::Direction;
+use buslens::tool::Offer;
+
+/// Something that was found, with what was typed.
+#[derive(Clone)]
+struct Hit {
+    found: Found,
+    typed: String,
+}
+
+#[component]
+pub fn Finder() -> impl IntoView {
+    /// More are not read by anybody: a letter more finds fewer.
+    const SHOWN: usize = 60;
+    let state = expect_context::<BuildState>();
+    let hits = Signal::derive(move || {
+        let typed = state.query.get();
+        let found = state.found().into_iter().take(SHOWN);
+        found.map(|found| Hit { found, typed: typed.clone() }).collect::<Vec<_>>()
+    });
+    view! {
+        <section class="finder" role="search" aria-label="What to build">
+            <Icon glyph=Glyph::Search />
+            <Combobox
+                label="What do you want to do? A name, a function code, an address"
+                value=state.query
+                on_input=Callback::new(move |typed| state.query.set(typed))
+                options=hits
+                draw=hit
+                on_choose=Callback::new(move |hit: Hit| state.choose(&hit.found))
+                nothing="No match. Try a part of the name, a function code such as 16, or an address such as 0x5F00."
+                placeholder="What do you want to do? Such as: write channel, 16, 5F00h"
+            />
+        </section>
+    }
+}
+
+fn hit(Hit { found, typed }: &Hit) -> AnyView {
+    let device = found.device.map_or("any device", |device| device.label);
+    let about = match found.offer {
+        Offer::Telegram(kind) => format!("function {}", kind.function),
+        Offer::Service(kind) => match kind.sap {
+            Some(sap) => format!("PROFIBUS, SAP {sap}"),
+            None => "PROFIBUS".to_owned(),
+        },
+        Offer::Task(_) => String::new(),
+    };
+    let arrow = match found.offer {
+        Offer::Telegram(kind) if kind.direction == Direction::Response => Glyph::Back,
+        Offer::Service(kind) if kind.direction == Direction::Response => Glyph::Back,
+        _ => Glyph::ChevronRight,
+    };
+    view! {
+        <Icon glyph=arrow />
+        <b>{marked(&found.label().sentence(), typed)}</b>
+        <span class="device">{device}</span>
+        <span class="facts">{about}</span>
+    }
+    .into_any()
+}
+
+/// The label, with the words of what was typed marked in it.
+fn marked(label: &str, typed: &str) -> Vec<AnyView> {
+    pieces(label, typed)
+        .into_iter()
+        .map(|(piece, lit)| {
+            let piece = piece.to_owned();
+            if lit { view! { <mark>{piece}</mark> }.into_any() } else { piece.into_any() }
+        })
+        .collect()
+}
+
+/// The label in pieces, and whether each was typed.
+fn pieces<'a>(label: &'a str, typed: &str) -> Vec<(&'a str, bool)> {
+    let lower = label.to_ascii_lowercase();
+    let mut lit = vec![false; label.len()];
+    for word in typed.to_ascii_lowercase().split_whitespace() {
+        if let Some(at) = lower.find(word) {
+            lit[at..at + word.len()].fill(true);
+        }
+    }
+    let mut pieces = Vec::new();
+    let mut from = 0;
+    for to in 1..=label.len() {
+        if (to == label.len() || lit[to] != lit[from]) && label.is_char_boundary(to) {
+            pieces.push((&label[from..to], lit[from]));
+            from = to;
+        }
+    }
+    pieces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::pieces;
+
+    #[test]
+    fn words_are_marked_where_they_stand() {
+        assert_eq!(
+            pieces("Write Universal channel", "channel wr"),
+            [("Wr", true), ("ite Universal ", false), ("channel", true)]
+        );
+        assert_eq!(pieces("", "a"), []);
+        assert_eq!(pieces("Größe", "größe"), [("Größe", true)]);
+    }
+}

@@ -1,0 +1,126 @@
+//! What the log says as a whole: a sentence, its units, and what is wrong.
+
+use leptos::prelude::*;
+
+use crate::components::icon::{Glyph, Icon};
+use crate::views::read::ReadState;
+use crate::views::read::times::duration;
+use crate::worker::messages::Found;
+use buslens::field::many;
+use buslens::tool::log::Unit;
+
+#[component]
+pub fn Overview() -> impl IntoView {
+    let log = expect_context::<ReadState>().log;
+    let headline = move || log.overview.with(|it| it.as_ref().map(|it| it.headline.clone()));
+    let fault = move || {
+        log.overview
+            .with(|it| it.as_ref()?.fault.clone())
+            .map(|fault| view! { <p class="refused">{fault}</p> })
+    };
+    let units = move || log.overview.with(|it| it.as_ref().map_or(Vec::new(), |it| it.units.clone()));
+    let unit = move |unit: Unit| {
+        let (number, port) = (unit.unit, unit.port);
+        let choose = move |_| {
+            log.filter_by(|filter| {
+                filter.unit = number;
+                filter.port = Some(port).filter(|_| number.is_some());
+            });
+        };
+        let name = number.map_or("The line".to_owned(), |number| format!("Unit {number}"));
+        view! {
+            <li>
+                <button type="button" class="link" on:click=choose>
+                    {name}
+                </button>
+                ": "
+                {said(&unit)}
+            </li>
+        }
+    };
+    // More are in the table of units.
+    const UNITS: usize = 6;
+    let more = move || {
+        let more = units().len().saturating_sub(UNITS);
+        (more > 0).then(|| view! { <li class="soft">{format!("and {} more", many(more, "unit"))}</li> })
+    };
+    view! {
+        <section class="story" aria-label="What the log shows">
+            <div>
+                <h2>{headline}</h2>
+                {fault}
+                <ul class="units note">
+                    {move || units().into_iter().take(UNITS).map(unit).collect_view()} {more}
+                </ul>
+            </div>
+            <Findings />
+        </section>
+    }
+}
+
+/// What became of the requests to a unit.
+fn said(unit: &Unit) -> String {
+    let mut said = if unit.requests > 0 {
+        format!("{} of {} answered", unit.answered, unit.requests)
+    } else {
+        many(unit.telegrams, "telegram")
+    };
+    if let Some(median) = unit.median {
+        said += &format!(", usually after {}", duration(median.into()));
+    }
+    for (n, noun) in [(unit.damaged, "damaged"), (unit.refused, "refused")] {
+        if n > 0 {
+            said += &format!(", {n} {noun}");
+        }
+    }
+    said
+}
+
+/// What is wrong, each with a button to its telegrams.
+#[component]
+fn Findings() -> impl IntoView {
+    let log = expect_context::<ReadState>().log;
+    let story = move || log.overview.with(|it| it.as_ref().map_or(Vec::new(), |it| it.story.clone()));
+    let finding = move |(index, found): (usize, Found)| {
+        // The first sentence says what it is, the others what to do.
+        let (what, advice) = match found.text.split_once(". ") {
+            Some((what, advice)) => (format!("{what}."), advice.to_owned()),
+            None => (found.text.clone(), String::new()),
+        };
+        let count = found.evidence.len();
+        view! {
+            <li>
+                <button
+                    type="button"
+                    aria-pressed=move || (log.finding.get() == Some(index)).to_string()
+                    title=found.text
+                    on:click=move |_| log.follow(index)
+                >
+                    <Icon glyph=Glyph::Warning />
+                    <span class="text">
+                        <b>{what}</b>
+                        " "
+                        <span class="soft">{advice}</span>
+                    </span>
+                    <span class="count">
+                        {count}
+                        <span class="unseen">" telegrams"</span>
+                        <Icon glyph=Glyph::ChevronRight />
+                    </span>
+                </button>
+            </li>
+        }
+    };
+    move || {
+        let findings = log.findings.get();
+        if findings.is_empty() {
+            // Nothing is wrong that has a name: the sentences of the story are what there is to say.
+            let sentences: Vec<_> =
+                story().into_iter().skip(1).map(|text| view! { <li>{text}</li> }).collect();
+            return view! { <ul class="findings none note">{sentences}</ul> }.into_any();
+        }
+        let findings = findings.into_iter().enumerate().map(finding).collect_view();
+        view! { <ol class="findings" aria-label="What is wrong, as far as the log tells">{findings}</ol> }
+            .into_any()
+    }
+}

@@ -1,0 +1,84 @@
+//! Read: paste, type, drop or open anything of any size.
+
+mod editor;
+mod examples;
+mod log;
+mod log_view;
+mod open_file;
+mod reading;
+mod start;
+mod state;
+mod telegrams;
+mod times;
+
+use leptos::ev;
+use leptos::prelude::*;
+
+use crate::browser::typing::is_typed_into;
+use crate::components::icon::{Glyph, Icon};
+use crate::views::later::LaterView;
+use editor::Editor;
+use examples::Examples;
+use open_file::OpenFile;
+use reading::{ReadAs, ReadingChoices};
+use start::Start;
+use state::Mode;
+use telegrams::Telegrams;
+
+pub use log_view::LogView;
+pub use state::ReadState;
+
+#[component]
+pub fn Read() -> impl IntoView {
+    let read = expect_context::<ReadState>();
+    // What is pasted where nothing is typed is meant for the input.
+    let pasted = window_event_listener(ev::paste, move |event| {
+        let text = event.clipboard_data().and_then(|data| data.get_data("text").ok());
+        if let Some(text) = text.filter(|text| !text.is_empty() && !is_typed_into(event.target())) {
+            event.prevent_default();
+            read.load(text);
+        }
+    });
+    on_cleanup(move || pasted.remove());
+    let has_editor = Memo::new(move |_| read.mode() != Mode::Log || read.editing.get());
+    let below = move || match read.mode() {
+        Mode::Start => view! { <Start /> }.into_any(),
+        Mode::Telegrams => view! { <Telegrams /> }.into_any(),
+        Mode::Log => view! { <LaterView which=|later| later.log /> }.into_any(),
+    };
+    view! {
+        <Show when=move || has_editor.get()>
+            <Input />
+        </Show>
+        {below}
+    }
+}
+
+/// Where telegrams are pasted, and how they are read.
+#[component]
+fn Input() -> impl IntoView {
+    let read = expect_context::<ReadState>();
+    view! {
+        <section class="input-bar" aria-label="Input">
+            <Editor />
+            <div class="input-tools">
+                <ReadAs />
+                <ReadingChoices />
+                <div class="acts">
+                    <Examples />
+                    <OpenFile label="Open file" class="low" />
+                    <Show when=move || read.mode() != Mode::Start>
+                        <button type="button" class="button plain low" on:click=move |_| read.clear()>
+                            <Icon glyph=Glyph::Close />
+                            "Clear"
+                        </button>
+                        <a class="button plain low" href="#/sheet">
+                            <Icon glyph=Glyph::Print />
+                            "Print, export"
+                        </a>
+                    </Show>
+                </div>
+            </div>
+        </section>
+    }
+}

@@ -1,0 +1,147 @@
+//! How the input was read, and how it is to be read.
+
+use leptos::prelude::*;
+
+use super::ReadState;
+use super::state::Mode;
+use buslens::field::{Direction, count};
+use buslens::tool::{PROFILES, PROTOCOLS, Report};
+
+/// The line that says how the text was read.
+#[component]
+pub fn ReadAs() -> impl IntoView {
+    let read = expect_context::<ReadState>();
+    move || {
+        let report = read.report();
+        let summary = report.summary();
+        let style = report.style.map(|style| style.name());
+        if read.mode() == Mode::Start {
+            return None;
+        }
+        if summary.telegrams == 0 {
+            return Some(
+                view! {
+                    <p class="read-as">
+                        <strong class="bad">"There is no telegram in this text."</strong>
+                        " Expected bytes in hex, such as 01 03 00 C8 00 03 84 35."
+                    </p>
+                }
+                .into_any(),
+            );
+        }
+        let mut said = vec![count(summary.telegrams, "telegram")];
+        if summary.pairs > 0 {
+            said.push(format!("{} answered", summary.pairs));
+        }
+        if summary.unchecked > 0 {
+            said.push(format!("{} too short to check", summary.unchecked));
+        }
+        let (failed, class) = match summary.check_failed {
+            0 if summary.checked == 0 => (String::new(), ""),
+            0 if summary.telegrams == 1 => ("check right".to_owned(), "good"),
+            0 if summary.checked == summary.telegrams => ("all checks right".to_owned(), "good"),
+            0 => (String::new(), ""),
+            n => (format!("{} failed", count(n, "check")), "bad"),
+        };
+        let comma = if failed.is_empty() { "" } else { ", " };
+        Some(
+            view! {
+                <p class="read-as">
+                    "Read as "
+                    {style.map(|style| view! { {style} ", " })}
+                    <strong>{protocol_name(&report)}</strong>
+                    ": "
+                    {said.join(", ")}
+                    {comma}
+                    <strong class=class>{failed}</strong>
+                    "."
+                </p>
+            }
+            .into_any(),
+        )
+    }
+}
+
+/// The protocol of all telegrams, if they have the same.
+fn protocol_name(report: &Report) -> &'static str {
+    let mut labels = report.telegrams.iter().map(|telegram| telegram.choice.protocol.label);
+    match labels.next() {
+        Some(first) if labels.all(|label| label == first) => first,
+        _ => "several protocols",
+    }
+}
+
+/// The lists that say how the input is to be read.
+#[component]
+pub fn ReadingChoices() -> impl IntoView {
+    let read = expect_context::<ReadState>();
+    let devices = PROFILES.iter().map(|it| (it.key, it.label)).collect();
+    let protocols = PROTOCOLS.iter().map(|it| (it.key, it.label)).collect();
+    let directions = || {
+        vec![(Direction::Request.key(), "All are requests"), (Direction::Response.key(), "All are responses")]
+    };
+    view! {
+        <div class="reading-choices">
+            <Choose
+                label="Device"
+                otherwise="Any"
+                options=devices
+                value=Signal::derive(move || read.choices().device)
+                on_choose=Callback::new(move |key| read.read_as(|choices| choices.device = key))
+            />
+            <Choose
+                label="Protocol"
+                otherwise="As the bytes tell"
+                options=protocols
+                value=Signal::derive(move || read.choices().protocol)
+                on_choose=Callback::new(move |key| read.read_as(|choices| choices.protocol = key))
+            />
+            <Show when=move || read.mode() == Mode::Telegrams>
+                <Choose
+                    label="Direction"
+                    otherwise="As the bytes tell"
+                    options=directions()
+                    value=Signal::derive(move || read.choices().direction)
+                    on_choose=Callback::new(move |key| read.read_as(|choices| choices.direction = key))
+                />
+            </Show>
+        </div>
+    }
+}
+
+/// A small list with its name before it.
+#[component]
+pub fn Choose(
+    label: &'static str,
+    /// What counts where nobody chooses.
+    otherwise: &'static str,
+    /// Keys and labels.
+    options: Vec<(&'static str, &'static str)>,
+    value: Signal<String>,
+    on_choose: Callback<String>,
+) -> impl IntoView {
+    let options: Vec<_> = options
+        .into_iter()
+        .map(|(key, label)| {
+            view! {
+                <option value=key prop:selected=move || value.get() == key>
+                    {label}
+                </option>
+            }
+        })
+        .collect();
+    view! {
+        <label class="choose">
+            <span>{label}</span>
+            <select
+                class="select low"
+                on:change=move |event| on_choose.run(event_target_value(&event))
+            >
+                <option value="" prop:selected=move || value.with(String::is_empty)>
+                    {otherwise}
+                </option>
+                {options}
+            </select>
+        </label>
+    }
+}

@@ -1,0 +1,258 @@
+//! A log that is read, and the answers to what is asked about it. It knows nothing of workers: small logs
+//! are read where the page is.
+
+use std::collections::BTreeMap;
+
+use super::messages::{Answer, Choice, Export, Found, Request, Shown, Value, Which};
+use buslens::field::{Direction, Span, hex};
+use buslens::tool::log::{Entry, Finding, Log, Role, Source, time_text};
+use buslens::tool::{annotated, csv, json};
+
+/// How many stretches the timeline has.
+const STRETCHES: usize = 200;
+
+/// A log with what the page sees of it.
+pub struct Reader<S> {
+    log: Log,
+    source: S,
+    size: u64,
+    findings: Vec<Finding>,
+    /// The indices of the telegrams that the list has.
+    chosen: Vec<u32>,
+}
+
+impl<S: Source> Reader<S> {
+    /// A log that is read from `source`, which has `size` bytes.
+    pub fn new(log: Log, source: S, size: u64) -> Self {
+        let chosen = (0..log.entries().len() as u32).collect();
+        Self { log, source, size, findings: Vec::new(), chosen }
+    }
+
+    /// What is said of a log when it is read.
+    pub fn opening(&mut self) -> Vec<Answer> {
+        self.findings = self.log.findings(&self.source);
+        let found = |finding: &Finding| Found {
+            code: finding.code.to_owned(),
+            text: finding.text.sentence() + ".",
+            evidence: finding.evidence.clone(),
+        };
+        vec![
+            Answer::Ready(self.log.overview()),
+            Answer::Findings(self.findings.iter().map(found).collect()),
+            Answer::Lanes(self.log.lanes(None, STRETCHES)),
+            Answer::List(self.chosen.len()),
+        ]
+    }
+
+    /// The answers to a request, but for exports, which may be large: see [`Reader::export`].
+    pub fn answer(&mut self, request: &Request) -> Vec<Answer> {
+        match request {
+            Request::SetUp(how) => {
+                self.log.set_options(how.options());
+                self.opening()
+            }
+            Request::List(choice) => {
+                self.choose(choice);
+                vec![Answer::List(self.chosen.len())]
+            }
+            Request::Lanes(between) => vec![Answer::Lanes(self.log.lanes(*between, STRETCHES))],
+            Request::Rows { from, count } => {
+                /// More do not fit on any screen.
+                const MOST: usize = 200;
+                let rows = Span::new(*from, from.saturating_add((*count).min(MOST))).of(&self.chosen);
+                vec![Answer::Rows { from: *from, rows: self.log.rows(&self.source, rows) }]
+            }
+            Request::Show(which) => vec![self.show(*which)],
+            Request::Series { unit, address } => vec![self.series(*unit, *address)],
+            Request::Unread => vec![self.unread()],
+            Request::Sample => vec![self.sample()],
+            Request::Open(_) | Request::Stop | Request::Export { .. } => Vec::new(),
+        }
+    }
+
+    fn choose(&mut self, choice: &Choice) {
+        self.chosen = self.log.filtered(&choice.filter, &self.source, self.size);
+        if let Some(finding) = choice.finding.and_then(|index| self.findings.get(index)) {
+            self.chosen.retain(|index| finding.evidence.binary_search(index).is_ok());
+        }
+    }
+
+    fn show(&self, which: Which) -> Answer {
+        let entries = self.log.entries();
+        let wrong = |place: &usize| self.log.state(&entries[self.chosen[*place] as usize]).is_wrong();
+        let index = match which {
+            Which::At(place) => self.chosen.get(place).map(|index| *index as usize),
+            Which::Index(index) => Some(index).filter(|index| *index < entries.len()),
+            Which::Wrong { from, forwards: true } => {
+                (from + 1..self.chosen.len()).find(wrong).map(|place| self.chosen[place] as usize)
+            }
+            Which::Wrong { from, forwards: false } => {
+                (0..from.min(self.chosen.len())).rev().find(wrong).map(|place| self.chosen[place] as usize)
+            }
+        };
+        let Some(index) = index else { return Answer::NothingThere };
+        let entry = &entries[index];
+        let Some(row) = self.log.rows(&self.source, &[index as u32]).pop() else {
+            return Answer::NothingThere;
+        };
+        let discarded = entry.role == Role::Discarded;
+        Answer::Shown(Box::new(Shown {
+            place: self.chosen.binary_search(&(index as u32)).ok(),
+            row,
+            line: entry.line,
+            about: about(entry).to_owned(),
+            partner: entry.partner(),
+            discarded: discarded.then(|| self.log.bytes(entry).to_vec()),
+            excerpt: if discarded { Default::default() } else { self.log.excerpt(&self.source, index) },
+        }))
+    }
+
+    fn series(&self, unit: Option<u8>, address: u16) -> Answer {
+        const MOST: usize = 600;
+        let points = self.log.series(&self.source, unit, address, MOST);
+        let value = |point: &buslens::tool::log::Point| Value {
+            index: point.index,
+            time: point.time,
+            value: point.value,
+        };
+        Answer::Series(points.iter().map(value).collect())
+    }
+
+    fn unread(&self) -> Answer {
+        const SHOWN: usize = 500;
+        const LONGEST: usize = 300;
+        let unread = self.log.unread();
+        let text = |(line, offset): &(u32, u32)| (*line, self.log.text_at(&self.source, *offset, LONGEST));
+        Answer::Unread {
+            lines: unread.iter().take(SHOWN).map(text).collect(),
+            more: unread.len().saturating_sub(SHOWN),
+        }
+    }
+
+    /// A line that holds a telegram, or else any line.
+    fn sample(&self) -> Answer {
+        const LONGEST: usize = 1000;
+        let first = self.log.entries().iter().find(|entry| entry.line > 0).map(|entry| entry.offset);
+        let offset = first.or(self.log.unread().first().map(|(_, offset)| *offset)).unwrap_or_default();
+        Answer::Sample(self.log.text_at(&self.source, offset, LONGEST))
+    }
+
+    /// Writes the telegrams of the list, part by part.
+    pub fn export(&self, kind: Export, notes: &BTreeMap<usize, String>, write: &mut dyn FnMut(String)) {
+        /// So many are read at a time.
+        const AT_ONCE: usize = 2000;
+        match kind {
+            Export::Summary => return write(self.summary()),
+            Export::Csv => write(csv::head()),
+            Export::Text => write(self.summary()),
+            _ => {}
+        }
+        for chosen in self.chosen.chunks(AT_ONCE) {
+            write(match kind {
+                Export::Hex => self.hex(chosen),
+                Export::Lines => self.lines(chosen),
+                _ => self.read(chosen, kind, notes),
+            });
+        }
+    }
+
+    /// Story, findings with their advice, and the worst telegrams, a line each: to be pasted into a mail.
+    fn summary(&self) -> String {
+        const WORST: usize = 10;
+        let overview = self.log.overview();
+        let mut text = format!("{}\n", overview.headline);
+        for sentence in &overview.story {
+            text += &format!("- {sentence}\n");
+        }
+        if !self.findings.is_empty() {
+            text += "\nWhat is wrong, as far as the log tells:\n";
+            for (number, finding) in (1..).zip(&self.findings) {
+                let count = finding.evidence.len();
+                let noun = if count == 1 { "telegram" } else { "telegrams" };
+                text += &format!("{number}. {}. ({count} {noun})\n", finding.text.sentence());
+            }
+        }
+        let entries = self.log.entries();
+        let mut wrong: Vec<u32> = (0..entries.len() as u32)
+            .filter(|index| self.log.state(&entries[*index as usize]).is_wrong())
+            .collect();
+        let all = wrong.len();
+        wrong.sort_by_key(|index| std::cmp::Reverse(self.log.state(&entries[*index as usize])));
+        wrong.truncate(WORST);
+        wrong.sort_unstable();
+        if !wrong.is_empty() {
+            let of = if all > WORST { format!(" ({WORST} of {all})") } else { String::new() };
+            text += &format!("\nTelegrams to look at{of}:\n");
+            for row in self.log.rows(&self.source, &wrong) {
+                let time = row.time.map_or(String::new(), |time| format!(", {}", time_text(time)));
+                let unit = row.unit.map_or(String::new(), |unit| format!(", unit {unit}"));
+                let arrow = match row.direction {
+                    Some(Direction::Request) => " asked",
+                    Some(Direction::Response) => " answers",
+                    None => "",
+                };
+                text +=
+                    &format!("#{}{time}{unit}{arrow}: {} [{}]\n", row.index + 1, row.said, row.state.word());
+            }
+        }
+        text
+    }
+
+    fn hex(&self, chosen: &[u32]) -> String {
+        let entries = chosen.iter().map(|index| &self.log.entries()[*index as usize]);
+        entries.map(|entry| hex(self.log.bytes(entry)) + "\n").collect()
+    }
+
+    /// The log's own lines.
+    fn lines(&self, chosen: &[u32]) -> String {
+        const LONGEST: usize = 4096;
+        let mut last = None;
+        let mut text = String::new();
+        for entry in chosen.iter().map(|index| &self.log.entries()[*index as usize]) {
+            if entry.line > 0 && last != Some(entry.offset) {
+                text += &self.log.text_at(&self.source, entry.offset, LONGEST);
+                text.push('\n');
+            }
+            last = Some(entry.offset);
+        }
+        text
+    }
+
+    /// What telegrams say, each by itself, with what their partners tell of them.
+    fn read(&self, chosen: &[u32], kind: Export, notes: &BTreeMap<usize, String>) -> String {
+        let entries = self.log.entries();
+        let chosen: Vec<usize> =
+            chosen.iter().map(|index| *index as usize).filter(|index| entries[*index].counts()).collect();
+        let read = self.log.with_partners(chosen.iter().copied());
+        let mut report = self.log.report(&self.source, &read);
+        for telegram in &mut report.telegrams {
+            telegram.comment = notes.get(&telegram.number).cloned().unwrap_or_default();
+        }
+        let places = chosen.iter().filter_map(|index| read.binary_search(index).ok());
+        let one = |place: usize| match kind {
+            Export::Csv => csv::telegram(&report, place),
+            Export::Text => format!("\n{}", annotated::telegram(&report, place)),
+            // Text and numbers always make JSON.
+            _ => json::line(&report, place, kind == Export::JsonLinesWithFields).unwrap_or_default() + "\n",
+        };
+        places.map(one).collect()
+    }
+}
+
+/// What its place in the conversation says of a telegram.
+fn about(entry: &Entry) -> &'static str {
+    match entry.role {
+        Role::Echo => "An echo: the request before it, heard by its own sender on the same wires.",
+        Role::Retry => "A retry: the same request before it got no answer.",
+        Role::Copy => "The log has it twice; this copy is not counted.",
+        Role::Broadcast => "Nobody answers it: it is for all.",
+        Role::Late => "It came after other requests were sent.",
+        Role::Unasked => "Nobody asked for it, as far as the log goes.",
+        Role::Discarded => {
+            "No telegram with a right check begins here: noise, a telegram whose beginning was lost, or another \
+             protocol."
+        }
+        _ if entry.unanswered() => "Nobody answered it.",
+        Role::Plain => "",
+    }
+}

@@ -1,0 +1,177 @@
+//! The worker's end: it reads the file in parts and answers what the page asks.
+
+use std::cell::RefCell;
+
+use wasm_bindgen::closure::Closure;
+use wasm_bindgen::{JsCast, JsValue};
+// Leptos has no executor where nothing is mounted.
+use wasm_bindgen_futures::{JsFuture, spawn_local};
+use web_sys::js_sys::{Array, Uint8Array, global};
+use web_sys::{Blob, BlobPropertyBag, DedicatedWorkerGlobalScope, FileReaderSync, MessageEvent};
+
+use super::mail;
+use super::messages::{Answer, How, Request};
+use super::reader::Reader;
+use buslens::tool::log::{BEGINNING, Log, Source};
+
+/// What is read at a time.
+const PIECE: u64 = 4 << 20;
+
+thread_local! {
+    static DESK: RefCell<Desk> = RefCell::default();
+}
+
+/// What the worker holds.
+#[derive(Default)]
+struct Desk {
+    reader: Option<Reader<File>>,
+    /// Counts what was opened: a reading that is not the latest gives up.
+    turn: u32,
+    stopped: bool,
+}
+
+/// A file that can be read at any place.
+#[derive(Clone)]
+struct File(Blob);
+
+impl File {
+    fn size(&self) -> u64 {
+        self.0.size() as u64
+    }
+
+    fn slice(&self, from: u64, length: u64) -> Option<Blob> {
+        let to = (from + length).min(self.size());
+        self.0.slice_with_f64_and_f64(from as f64, to as f64).ok()
+    }
+
+    /// Begins to read, which makes nobody wait: messages come in meanwhile.
+    fn part(&self, from: u64, length: u64) -> Option<JsFuture> {
+        Some(JsFuture::from(self.slice(from, length)?.array_buffer()))
+    }
+}
+
+impl Source for File {
+    fn read(&self, from: u64, length: usize) -> Vec<u8> {
+        let read = || {
+            let slice = self.slice(from, length as u64)?;
+            let buffer = FileReaderSync::new().ok()?.read_as_array_buffer(&slice).ok()?;
+            Some(Uint8Array::new(&buffer).to_vec())
+        };
+        // Only the places of bytes in their lines are read again; without the file they are not marked.
+        read().unwrap_or_default()
+    }
+}
+
+/// Waits for what the page asks.
+pub fn serve() {
+    std::panic::set_hook(Box::new(|panic| web_sys::console::error_1(&panic.to_string().into())));
+    let hear = Closure::<dyn Fn(MessageEvent)>::new(|event: MessageEvent| {
+        if let Some((request, beside)) = mail::read(&event.data()) {
+            hear(request, beside);
+        }
+    });
+    scope().set_onmessage(Some(hear.into_js_value().unchecked_ref()));
+    tell(&Answer::Hello);
+}
+
+fn scope() -> DedicatedWorkerGlobalScope {
+    global().unchecked_into()
+}
+
+fn tell(answer: &Answer) {
+    tell_with(answer, &JsValue::UNDEFINED);
+}
+
+fn tell_with(answer: &Answer, beside: &JsValue) {
+    if let Some(mail) = mail::write(answer, beside) {
+        // A page that is gone hears nothing.
+        let _ = scope().post_message(&mail);
+    }
+}
+
+fn hear(request: Request, beside: JsValue) {
+    match request {
+        Request::Open(how) => {
+            let Ok(blob) = beside.dyn_into::<Blob>() else { return };
+            let turn = DESK.with_borrow_mut(|desk| {
+                desk.turn += 1;
+                desk.stopped = false;
+                desk.reader = None;
+                desk.turn
+            });
+            spawn_local(open(turn, File(blob), how));
+        }
+        Request::Stop => DESK.with_borrow_mut(|desk| desk.stopped = true),
+        Request::Export { kind, notes } => DESK.with_borrow(|desk| {
+            let Some(reader) = &desk.reader else { return };
+            let parts = Array::new();
+            reader.export(kind, &notes, &mut |text| _ = parts.push(&text.into()));
+            let bag = BlobPropertyBag::new();
+            bag.set_type(kind.file().1);
+            if let Ok(blob) = Blob::new_with_str_sequence_and_options(&parts, &bag) {
+                tell_with(&Answer::Exported(kind), &blob);
+            }
+        }),
+        request => DESK.with_borrow_mut(|desk| {
+            if let Some(reader) = &mut desk.reader {
+                reader.answer(&request).iter().for_each(tell);
+            }
+        }),
+    }
+}
+
+/// Reads a file from its beginning to its end.
+async fn open(turn: u32, file: File, how: How) {
+    let size = file.size();
+    let gone = || {
+        Answer::Refused(
+            "The file cannot be read: it was changed, moved, or is a folder. Open it again.".into(),
+        )
+    };
+    let mut part = Vec::new();
+    if !come(file.part(0, BEGINNING as u64), &mut part).await {
+        return tell(&gone());
+    }
+    let mut log = match Log::open(&part, size, &how.reading(), how.options()) {
+        Ok(log) => log,
+        Err(refusal) => return tell(&Answer::Refused(refusal.to_string())),
+    };
+    let mut at = 0;
+    let mut next = file.part(0, PIECE);
+    while at < size {
+        if !come(next, &mut part).await {
+            return tell(&gone());
+        }
+        let (latest, stopped) = DESK.with_borrow(|desk| (desk.turn == turn, desk.stopped));
+        if !latest {
+            return;
+        }
+        at += part.len() as u64;
+        // The browser reads the next part while this one is taken.
+        next = file.part(at, PIECE);
+        let room = log.push(&part);
+        tell(&Answer::Progress { done: at as f64, telegrams: log.entries().len() });
+        if stopped || !room || part.is_empty() {
+            break;
+        }
+    }
+    log.finish();
+    let mut reader = Reader::new(log, file, size);
+    let answers = reader.opening();
+    DESK.with_borrow_mut(|desk| {
+        if desk.turn == turn {
+            desk.reader = Some(reader);
+            answers.iter().for_each(tell);
+        }
+    });
+}
+
+/// Waits for a part of a file, and puts it into `part`, whose room is used again and again.
+async fn come(next: Option<JsFuture>, part: &mut Vec<u8>) -> bool {
+    let Some(next) = next else { return false };
+    let Ok(buffer) = next.await else { return false };
+    let bytes = Uint8Array::new(&buffer);
+    part.resize(bytes.length() as usize, 0);
+    bytes.copy_to(part);
+    true
+}
