@@ -44,6 +44,18 @@ async fn a_channel_is_written_in_the_words_of_the_manual() -> Result {
     page.close().await
 }
 
+/// A sentence is found as what it means, filled in.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_sentence_is_enough() -> Result {
+    let page = Page::open_at("#/build", DESKTOP, false).await?;
+    page.fill_in(SEARCH, "write 123.456 good to channel 6").await?;
+    page.press(Key::Enter + "").await?;
+    page.settle().await?;
+    assert_eq!(page.bytes_in(REQUEST).await?, "01 10 00 D7 00 03 06 00 80 42 F6 E9 79 28 15");
+    assert_eq!((page.holds("Number").await?, page.holds("Value").await?), ("6".to_owned(), "123.456".to_owned()));
+    page.close().await
+}
+
 #[tokio::test(flavor = "multi_thread")]
 async fn the_search_goes_by_keyboard() -> Result {
     let page = Page::open_at("#/build", DESKTOP, false).await?;

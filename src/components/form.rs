@@ -212,7 +212,7 @@ fn single(entry: Signal<Entry>, within_list: bool) -> impl IntoView {
     let (spec, path) = entry.with_untracked(|entry| (entry.spec, entry.path.clone()));
     let id = format!("form-{}-{path}", shared.number);
     let about = format!("{id}-about");
-    let by_name_only = shared.named.contains(&path.as_str());
+    let by_name_only = spec.only_named || shared.named.contains(&path.as_str());
     let path = StoredValue::new(path);
     let edit = Callback::new(move |edit: Edit| shared.on_edit.run((path.get_value(), edit)));
     let said = Memo::new(move |_| entry.with(|entry| shared.said(entry)));

@@ -2,12 +2,11 @@
 
 use leptos::prelude::*;
 
-use super::search::Found;
 use super::state::BuildState;
 use crate::components::combobox::Combobox;
 use crate::components::icon::{Glyph, Icon};
 use buslens::field::Direction;
-use buslens::tool::Offer;
+use buslens::tool::{Found, Offer};
 
 /// Something that was found, with what was typed.
 #[derive(Clone)]
@@ -37,7 +36,7 @@ pub fn Finder() -> impl IntoView {
                 draw=hit
                 on_choose=Callback::new(move |hit: Hit| state.choose(&hit.found))
                 nothing="No match. Try a part of the name, a function code such as 16, or an address such as 0x5F00."
-                placeholder="What do you want to do? Such as: write channel, 16, 5F00h"
+                placeholder="What do you want to do? Such as: write 123.456 good to channel 6"
             />
         </section>
     }
@@ -53,6 +52,13 @@ fn hit(Hit { found, typed }: &Hit) -> AnyView {
         },
         Offer::Task(_) => String::new(),
     };
+    // What the words fill in, and why it was found where the label does not show it.
+    let filled = found.entries.iter().map(|(path, text)| {
+        let name = path.rsplit('.').next().unwrap_or_default().replace('_', " ");
+        format!("{name} {text}")
+    });
+    let facts = filled.chain([found.reason.to_string(), about]).filter(|fact| !fact.is_empty());
+    let facts = facts.collect::<Vec<_>>().join(", ");
     let arrow = match found.offer {
         Offer::Telegram(kind) if kind.direction == Direction::Response => Glyph::Back,
         Offer::Service(kind) if kind.direction == Direction::Response => Glyph::Back,
@@ -62,7 +68,7 @@ fn hit(Hit { found, typed }: &Hit) -> AnyView {
         <Icon glyph=arrow />
         <b>{marked(&found.label().sentence(), typed)}</b>
         <span class="device">{device}</span>
-        <span class="facts">{about}</span>
+        <span class="facts">{facts}</span>
     }
     .into_any()
 }

@@ -2,7 +2,6 @@
 
 mod finder;
 mod making;
-mod search;
 mod sides;
 mod state;
 

@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use leptos::prelude::*;
 
-use super::search::{Found, search};
 use crate::address::Address;
 use crate::components::byte_strip::Lights;
 use crate::components::form::Edit;
@@ -13,7 +12,7 @@ use crate::views::devices::DeviceSettings;
 use buslens::field::{Direction, Message, hex};
 use buslens::tool::link::Link;
 use buslens::tool::{
-    Editor, Entries, Offer, Options, PROTOCOLS, Profile, Protocol, Settings, decode, offers,
+    Editor, Entries, Found, Offer, Options, PROTOCOLS, Profile, Protocol, Settings, decode, offers, search,
 };
 
 /// What Build shows.
@@ -130,7 +129,7 @@ impl BuildState {
         let settings = self.settings();
         let unit = self.with_editor(Editor::unit).unwrap_or(1);
         let wished = self.built.with_untracked(|built| built.protocol);
-        let Some(editor) = found.editor(unit, wished, &settings) else { return };
+        let Ok(editor) = found.editor(unit, Some(wished), &settings) else { return };
         if found.device.is_some() {
             self.device.set(found.device);
         }
@@ -147,14 +146,14 @@ impl BuildState {
             let all = device.map_or(Vec::new(), |device| offers(Some(device)));
             let offer =
                 all.into_iter().find(|it| matches!(it, Offer::Task(_)) && it.label().to_string() == *task)?;
-            Some(Found { device, offer })
+            Some(Found { device, offer, entries: Vec::new(), reason: Message::term("") })
         });
         match (task, same) {
             (Some(_), Some(same)) => {
                 let settings = self.settings();
                 let unit = self.with_editor(Editor::unit).unwrap_or(1);
                 let wished = self.built.with_untracked(|built| built.protocol);
-                if let Some(editor) = same.editor(unit, wished, &settings) {
+                if let Ok(editor) = same.editor(unit, Some(wished), &settings) {
                     self.open(editor);
                 }
             }
@@ -242,6 +241,7 @@ impl BuildState {
         let asked = asked.flatten();
         let before = self.built.with_untracked(|built| built.telegram.clone());
         let built = self.with_editor(|editor| {
+            editor.device = device;
             let (bytes, impossible) = match editor.bytes() {
                 Ok(bytes) => (Some(bytes), None),
                 Err(message) => (None, Some(message)),
