@@ -33,7 +33,7 @@ pub fn run(arguments: &[&str]) -> Result {
         command.args(["--sharding", "round-robin", "--shard", &format!("{}/{shards}", seed % shards)]);
     }
     // That the tests pass without a change, `cargo xtask test` shows.
-    command.args(["--baseline", "skip", "--timeout", "300", "--build-timeout", "600", "--output"]).arg(&out);
+    command.args(["--baseline", "skip", "--timeout", "600", "--output"]).arg(&out);
     // Quicker to compile.
     command.env("CARGO_PROFILE_DEV_DEBUG", "0").env("CARGO_PROFILE_TEST_DEBUG", "0");
     let status = command.status().map_err(|error| format!("cargo-mutants did not start: {error}."))?;
