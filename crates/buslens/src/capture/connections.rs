@@ -13,6 +13,12 @@ pub struct Connection {
     pub server: SocketAddr,
 }
 
+impl Connection {
+    fn ports(&self) -> [u16; 2] {
+        [self.client.port(), self.server.port()]
+    }
+}
+
 /// What one end of a connection sent, in order.
 #[derive(Debug)]
 pub struct Segment<'a> {
@@ -21,6 +27,8 @@ pub struct Segment<'a> {
     /// Number of the connection, from 0.
     pub connection: usize,
     pub from_client: bool,
+    /// The ports of client and server.
+    pub ports: [u16; 2],
     /// Where in the file the packet is that it came in.
     pub offset: u64,
     /// The line of a text that the packet begins in; 0 in a file of packets.
@@ -136,6 +144,7 @@ impl Connections {
             time,
             connection,
             from_client,
+            ports: self.list[connection].ports(),
             offset,
             line,
             bytes: payload,
@@ -215,6 +224,7 @@ impl Connections {
                 time,
                 connection,
                 from_client,
+                ports: self.list[connection].ports(),
                 offset,
                 line,
                 bytes: fresh,
@@ -242,6 +252,7 @@ impl Connections {
                     time,
                     connection,
                     from_client: way == 0,
+                    ports: self.list[connection].ports(),
                     offset,
                     line,
                     bytes: fresh,
@@ -265,6 +276,7 @@ impl Connections {
             time,
             connection,
             from_client: way == 0,
+            ports: self.list[connection].ports(),
             offset,
             line,
             bytes: &bytes,

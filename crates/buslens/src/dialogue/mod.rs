@@ -1,6 +1,8 @@
 //! What telegrams say about each other, and what their bytes say about them: which protocol they
 //! are of, who speaks, and which response answers which request.
 
+pub mod evidence;
+pub mod foreign;
 mod guess;
 mod hypothesis;
 mod pair;

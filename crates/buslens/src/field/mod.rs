@@ -4,12 +4,14 @@
 //! Nothing here knows a protocol, and nothing here imports anything else of this crate.
 
 mod bits;
+mod facts;
 mod message;
 mod problem;
 mod spec;
 mod value;
 
 pub use bits::Bits;
+pub use facts::Facts;
 pub use message::{Argument, Message};
 pub use problem::{Problem, Severity};
 pub use spec::{Format, Name, Order, Role, Spec};

@@ -7,6 +7,7 @@ pub mod modbus_pdu;
 pub mod modbus_rtu;
 pub mod modbus_serial;
 pub mod modbus_tcp;
+pub mod modbus_unchecked;
 mod profibus_bare;
 pub mod profibus_fdl;
 mod rules;
@@ -23,6 +24,7 @@ pub static PROTOCOLS: &[&Protocol] = &[
     &modbus_tcp::PROTOCOL,
     &modbus_ascii::PROTOCOL,
     &modbus_pdu::PROTOCOL,
+    &modbus_unchecked::PROTOCOL,
     &profibus_fdl::PROTOCOL,
     &profibus_bare::PARAMETER_CHANNEL,
     &profibus_bare::USER_DATA,

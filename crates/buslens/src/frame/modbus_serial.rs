@@ -70,20 +70,8 @@ pub struct Serial {
 impl Telegram for Serial {
     fn walk(&mut self, w: &mut dyn Walker) -> Walk {
         let start = w.mark();
-        w.window(self.mode.algorithm.width, &mut |w| {
-            w.u8(&UNIT, &mut self.unit)?;
-            if self.unit > 247 {
-                w.remark(
-                    &UNIT,
-                    Severity::Warning,
-                    "reserved-address",
-                    message!("unit {unit} is reserved: units have the numbers 1 to 247", unit = self.unit),
-                );
-            }
-            let walk = self.pdu.walk(w);
-            check_broadcast(w, self.unit, &self.pdu);
-            walk
-        })?;
+        let Self { mode, unit, pdu } = self;
+        w.window(mode.algorithm.width, &mut |w| walk_unit_and_pdu(w, unit, pdu))?;
         w.checksum(&self.mode.check, self.mode.algorithm, start)?;
         let length = w.mark() - start;
         check_length(w, &self.mode.check, length, self.mode.longest());
@@ -112,6 +100,65 @@ impl Frame for Serial {
         let Cargo::Modbus(pdu) = response else { return None };
         Some(Box::new(Self { mode: self.mode, unit: self.unit, pdu }))
     }
+}
+
+/// A frame of a serial line without its check.
+pub struct Unchecked {
+    pub unit: u8,
+    pub pdu: Pdu,
+}
+
+impl Unchecked {
+    /// An empty frame to read `bytes` into.
+    pub fn expect(bytes: &[u8], direction: Direction, dialect: &'static Dialect) -> Self {
+        let [unit, function] = [0, 1].map(|at| bytes.get(at).copied().unwrap_or_default());
+        Self { unit, pdu: Pdu::expect(function, direction, dialect) }
+    }
+}
+
+impl Telegram for Unchecked {
+    fn walk(&mut self, w: &mut dyn Walker) -> Walk {
+        walk_unit_and_pdu(w, &mut self.unit, &mut self.pdu)
+    }
+}
+
+impl Frame for Unchecked {
+    fn content(&self) -> Content<'_> {
+        Content::Modbus { server: server(self.unit), pdu: &self.pdu }
+    }
+
+    fn meaning(&self) -> Message {
+        self.pdu.body.meaning(server(self.unit))
+    }
+
+    fn answer(&mut self, request: &Content<'_>) {
+        answer(&mut self.pdu, request);
+    }
+
+    fn pdu(&mut self) -> Option<&mut Pdu> {
+        Some(&mut self.pdu)
+    }
+
+    fn back(&self, response: Cargo) -> Option<Box<dyn Frame>> {
+        let Cargo::Modbus(pdu) = response else { return None };
+        Some(Box::new(Self { unit: self.unit, pdu }))
+    }
+}
+
+/// What both kinds of frames have in common.
+fn walk_unit_and_pdu(w: &mut dyn Walker, unit: &mut u8, pdu: &mut Pdu) -> Walk {
+    w.u8(&UNIT, unit)?;
+    if *unit > 247 {
+        w.remark(
+            &UNIT,
+            Severity::Warning,
+            "reserved-address",
+            message!("unit {unit} is reserved: units have the numbers 1 to 247", unit = *unit),
+        );
+    }
+    let walk = pdu.walk(w);
+    check_broadcast(w, *unit, pdu);
+    walk
 }
 
 fn check_broadcast(w: &mut dyn Walker, unit: u8, pdu: &Pdu) {

@@ -221,11 +221,21 @@ impl Splitter {
         }
         let [_, _, _, _, high, low, _, function, ..] = *bytes else { return more };
         let length = 6 + usize::from(u16::from_be_bytes([high, low]));
-        if length <= modbus_tcp::HEADER || length > modbus_tcp::LONGEST || !self.knows(function) {
+        if length <= modbus_tcp::HEADER || length > modbus_tcp::LONGEST || function & !EXCEPTION == 0 {
+            return Begins::Nothing;
+        }
+        let known = self.knows(function);
+        if !known && !place.in_step {
             return Begins::Nothing;
         }
         if bytes.len() < length {
             return more;
+        }
+        // The header tells that it is a telegram, whatever its function; but then it ends where the bytes do, or
+        // another header follows.
+        if !known {
+            let next_is_zero = bytes[length..].iter().skip(2).take(2).all(|byte| *byte == 0);
+            return if next_is_zero { Begins::Telegram(length) } else { Begins::Nothing };
         }
         let fits = self.sides(&bytes[modbus_tcp::HEADER..length]) != [false, false];
         if fits || place.in_step { Begins::Telegram(length) } else { Begins::Nothing }

@@ -1,21 +1,672 @@
-//! Pasted text into bytes, with each byte's place in the text.
+//! Text into bytes: how everything that people paste or open is read.
+//!
+//! The [`Reader`] takes a text in pieces of any size and gives the bytes that it finds, line by line. Nothing
+//! has to be known of it for that; [`LAYOUTS`] only names those that are known.
+//!
+//! - A line is taken apart into its time, who speaks, the port, words, and *runs*: numbers with hardly more
+//!   than marks between them (`line`, `words`, `time`). `01 03`, `0103`, `0x01`, `01h`, `\x01`, `[01][03]`,
+//!   decimal lists; colours of a terminal and marks of emphasis between them are nothing.
+//! - Runs go on in the next lines in three ways: rows of a dump by their offsets (`dump`), a list of numbers
+//!   whose row ends with a comma, and the columns of lines with a byte or two each (`columns`).
+//! - Each run becomes a [`Piece`] with the [`Facts`] about it: does a word say who sent it, does a number
+//!   beside it say how long it is, does it stand in brackets of its own. A line whose numbers could be hex and
+//!   decimal gives both.
+//!
+//! Whether a piece holds a telegram is not decided here, but by [`crate::dialogue::evidence`]: a counter, a
+//! date or a word of hex letters may well come out as a piece.
+//!
+//! Everything takes linear time, and no line allocates.
 
-mod hex;
-pub mod log;
+mod columns;
+mod dump;
+mod encoding;
+mod flow;
+mod layouts;
+mod line;
+mod marks;
+mod time;
+mod typed;
+mod words;
 
-pub use hex::{Line, Reading, Remark, Style, read};
+pub use encoding::{Encoding, encoding};
+pub use flow::{Flow, flow};
+pub use layouts::{EXPORTS, Export, LAYOUTS, Layout, export};
+pub use line::{Numbers, Style};
+pub use marks::{Marks, Place};
+pub use typed::{Line, Remark, bytes, looks_typed, remarks};
+pub use words::Sender;
 
-/// All bytes of a text, whatever they are written like and on however many lines.
-pub fn bytes(text: &str) -> Vec<u8> {
-    read(text).lines.into_iter().flat_map(|line| line.bytes).collect()
+use crate::field::{Facts, Span};
+use columns::Columns;
+use dump::{Dump, Words};
+use line::{Run, Scan};
+use words::Weight;
+
+/// How a text is to be read.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Form {
+    /// How numbers without a mark are written; `None` where each line tells.
+    pub numbers: Option<Numbers>,
+    /// The first number counts the bytes behind it, see [`counted`].
+    pub counted: bool,
+    /// Each line has one byte.
+    pub flow: Option<Flow>,
+    /// What a person marked in one line.
+    pub marks: Option<Marks>,
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+/// Something found in a text.
+#[derive(Debug)]
+pub enum Event<'a> {
+    Piece(Piece<'a>),
+    /// A line without bytes that is not empty.
+    Unread {
+        line: u32,
+        offset: u64,
+    },
+}
 
-    #[test]
-    fn bytes_of_all_lines() {
-        assert_eq!(bytes("01 03\n00C8"), [1, 3, 0, 0xC8]);
+/// Bytes that stand together: perhaps a telegram, perhaps several, or a part of one, or none.
+#[derive(Debug)]
+pub struct Piece<'a> {
+    pub bytes: &'a [u8],
+    /// The same numbers read as decimal, where they can be either.
+    pub decimal: Option<&'a [u8]>,
+    /// Bytes from which on what stands between them is different.
+    pub breaks: &'a [usize],
+    /// Where each byte stands, counted from [`offset`](Self::offset).
+    pub places: &'a [Span],
+    /// The first line, counted from 1.
+    pub line: u32,
+    /// Where that line begins in the file.
+    pub offset: u64,
+    /// Microseconds, see [`Reader`].
+    pub time: Option<i64>,
+    pub sender: Option<Sender>,
+    /// What tells several lines or connections apart: `COM8`, `10.0.0.7:49152 – 10.0.0.1:502`.
+    pub port: Option<&'a [u8]>,
+    /// It continues the piece before it.
+    pub joins: bool,
+    pub facts: Facts,
+}
+
+/// Reads a text, part by part of the file.
+///
+/// Times are microseconds since 1970, since midnight or since some start, as the log gives them.
+#[derive(Debug, Default)]
+pub struct Reader {
+    form: Form,
+    scan: Scan,
+    dump: Dump,
+    /// The beginning of a line whose end has not come yet.
+    carry: Vec<u8>,
+    /// Where the carried line, or the next one, begins in the file.
+    offset: u64,
+    line: u32,
+    after_return: bool,
+    /// The line in hand is so long that its beginning was read already.
+    long: bool,
+    header: Option<Header>,
+    /// The time of a line without bytes, for the dump below it.
+    remembered: Option<i64>,
+    list: List,
+    columns: Columns,
+    /// Where the lines of [`columns`](Self::columns) are that had nothing else.
+    breaks: Vec<usize>,
+}
+
+/// A line without bytes that says something about the next ones.
+#[derive(Clone, Debug)]
+struct Header {
+    time: Option<i64>,
+    sender: Option<Sender>,
+    port: Vec<u8>,
+    line: u32,
+    offset: u64,
+    /// How many bytes the last row below it has.
+    row: usize,
+    /// The last number in it.
+    number: usize,
+    leftovers: bool,
+}
+
+/// A list of numbers over several lines.
+#[derive(Debug, Default)]
+struct List {
+    bytes: Vec<u8>,
+    decimal: Vec<u8>,
+    both: bool,
+    places: Vec<Span>,
+    breaks: Vec<usize>,
+    line: u32,
+    offset: u64,
+    facts: Facts,
+    sender: Option<Sender>,
+    time: Option<i64>,
+}
+
+/// A line longer than this is read in parts.
+const LONGEST_LINE: usize = 1 << 16;
+
+/// A list longer than this is read in parts.
+const LONGEST_LIST: usize = 1 << 12;
+
+/// So many bytes can be a telegram by themselves.
+const SHORTEST: usize = 4;
+
+impl Reader {
+    pub fn new(form: Form) -> Self {
+        Self::starting_at(form, 0, 1)
     }
+
+    /// Begins in the middle of a file.
+    pub fn starting_at(form: Form, offset: u64, line: u32) -> Self {
+        let scan = Scan::timed(form.flow.map(|flow| flow.unit));
+        Self { form, scan, offset, line: line.saturating_sub(1), ..Self::default() }
+    }
+
+    /// Takes the next part of the file.
+    pub fn push(&mut self, part: &[u8], sink: &mut dyn FnMut(Event<'_>)) {
+        let mut rest = part;
+        while let Some(end) = memchr::memchr2(b'\n', b'\r', rest) {
+            let (line, ended) = rest.split_at(end);
+            let newline = ended[0] == b'\n';
+            if newline && self.after_return && line.is_empty() && self.carry.is_empty() {
+                self.offset += 1;
+            } else {
+                self.end_line(line, sink);
+                self.offset += 1;
+            }
+            self.after_return = !newline;
+            rest = &ended[1..];
+        }
+        self.after_return &= rest.is_empty();
+        self.carry.extend_from_slice(rest);
+        if self.carry.len() > LONGEST_LINE {
+            self.cut(sink);
+        }
+    }
+
+    /// The file ends.
+    pub fn finish(&mut self, sink: &mut dyn FnMut(Event<'_>)) {
+        if !self.carry.is_empty() {
+            self.end_line(&[], sink);
+        }
+        self.end_list(sink);
+        self.end_columns(sink);
+        self.drop_header(sink);
+    }
+
+    /// How many lines were read.
+    pub fn lines(&self) -> u32 {
+        self.line
+    }
+
+    fn end_line(&mut self, end: &[u8], sink: &mut dyn FnMut(Event<'_>)) {
+        let mut carry = std::mem::take(&mut self.carry);
+        let length;
+        if carry.is_empty() {
+            length = end.len();
+            self.read(end, sink);
+        } else {
+            carry.extend_from_slice(end);
+            length = carry.len();
+            self.read(&carry, sink);
+            carry.clear();
+        }
+        self.carry = carry;
+        self.offset += length as u64;
+        self.long = false;
+    }
+
+    /// Reads what is there of a long line, in parts that end where no byte is cut.
+    fn cut(&mut self, sink: &mut dyn FnMut(Event<'_>)) {
+        let blank = |c: &u8| matches!(c, b' ' | b'\t' | b',' | b';' | b':' | b'-' | b'[' | b'<');
+        let mut carry = std::mem::take(&mut self.carry);
+        let mut from = 0;
+        while carry.len() - from > LONGEST_LINE {
+            let part = &carry[from..from + LONGEST_LINE];
+            let length = part.iter().rposition(blank).filter(|at| *at > 0).unwrap_or(LONGEST_LINE);
+            self.read(&part[..length], sink);
+            self.long = true;
+            self.offset += length as u64;
+            from += length;
+        }
+        carry.drain(..from);
+        self.carry = carry;
+    }
+
+    fn read(&mut self, line: &[u8], sink: &mut dyn FnMut(Event<'_>)) {
+        self.line += u32::from(!self.long);
+        if line.trim_ascii().is_empty() {
+            self.end_list(sink);
+            return self.end_columns(sink);
+        }
+        let row = if self.long { None } else { self.dump.row(line) };
+        if row.is_none() && self.dump.ends(line) {
+            return;
+        }
+        let marked = self.form.marks.as_ref().and_then(|marks| marks.bytes_from(line));
+        let from = row.map_or(0, |row| row.from).max(marked.unwrap_or(0));
+        let words = row.map(|row| row.words);
+        match words {
+            Some(Words::Octal) => self.scan.read_octal(line, from),
+            _ => self.scan.read(line, from, self.form.numbers),
+        }
+        if self.form.counted {
+            self.scan.drop_counts();
+        }
+        if words == Some(Words::LowFirst) {
+            swap_words(&mut self.scan);
+        }
+        let time = match &self.form.marks {
+            Some(marks) => marks.time(line).or(self.scan.time),
+            None => self.scan.time,
+        };
+        if row.is_none() && self.is_row_of_list(line) {
+            return self.take_row_of_list(line, time, sink);
+        }
+        self.end_list(sink);
+        if self.form.flow.is_some() {
+            return match flow::byte(&self.scan).copied() {
+                Some(run) => self.emit(line, &run, Context { time, joins: self.long, ..Context::default() }, sink),
+                None => self.without_bytes(line, time, sink),
+            };
+        }
+        if let Some(row) = row {
+            self.end_columns(sink);
+            let Some(run) = self.scan.runs.first().copied() else { return self.without_bytes(line, time, sink) };
+            let context = Context { time, joins: row.continues, dumped: true, ..Context::default() };
+            self.emit(line, &run, context, sink);
+            return self.dump.read(row, run.len());
+        }
+        self.runs(line, time, marked.is_some(), sink);
+    }
+
+    /// Gives the runs of a line that can be bytes of a telegram.
+    fn runs(&mut self, line: &[u8], time: Option<i64>, marked: bool, sink: &mut dyn FnMut(Event<'_>)) {
+        let bare = self.scan.words == 0 && self.scan.time.is_none() && self.scan.runs.len() == 1;
+        let joined = self.header.as_ref().is_some_and(|header| header.row > 0) && bare;
+        let several = self.scan.runs.iter().filter(|run| run.len() >= SHORTEST).count();
+        if several == 0 && !marked && !joined {
+            let taken = !self.long && self.columns.take(line, &self.scan, self.line, self.offset);
+            if !taken {
+                self.end_columns(sink);
+            }
+        } else {
+            self.end_columns(sink);
+        }
+        let last = self.scan.runs.last().map(|run| run.span);
+        let mut given = false;
+        for index in 0..self.scan.runs.len() {
+            let run = self.scan.runs[index];
+            let ends = Some(run.span) == last && self.scan.tail_is_plain(line, &run);
+            let short = run.len() < SHORTEST;
+            let two = run.span.len() > 1 || self.header.is_some();
+            let rest = short && !marked && (bare && two || run.said || ends && is_labelled(line, &run));
+            if short && !rest && !marked {
+                continue;
+            }
+            given |= !short || marked || bare;
+            let context = Context { time, joins: self.long || joined, dumped: marked, bare, rest };
+            self.emit(line, &run, context, sink);
+        }
+        if !given {
+            return self.without_bytes(line, time, sink);
+        }
+        // A row that is full goes on in the next one.
+        const ROWS: [usize; 5] = [8, 16, 20, 24, 32];
+        let length = self.scan.runs.first().map_or(0, Run::len);
+        match &mut self.header {
+            Some(header) if bare && (header.row == 0 || joined) && ROWS.contains(&length) => header.row = length,
+            header => *header = None,
+        }
+    }
+
+    /// Gives a run with what is said of it.
+    fn emit(&mut self, line: &[u8], run: &Run, context: Context, sink: &mut dyn FnMut(Event<'_>)) {
+        let Self { scan, header, form, breaks, .. } = self;
+        let header = header.as_ref().filter(|_| context.bare || context.dumped || header_fits(scan));
+        let alone = scan.runs.iter().filter(|run| run.len() >= SHORTEST).count() <= 1;
+        let after = scan.sender.filter(|(_, weight)| *weight == Weight::Strong && alone);
+        let own = run.sender.or(after).map(|(sender, _)| sender);
+        let sender = own.or(header.and_then(|header| header.sender));
+        let port = if scan.port.is_empty() { header.map_or(&[][..], |header| &header.port) } else { &scan.port };
+        let marks = form.marks.as_ref().and_then(|marks| marks.sender(line));
+        breaks.clear();
+        breaks.extend(run.breaks.of(&scan.breaks).iter().map(|at| at - run.first));
+        let numbers = form.numbers.unwrap_or(Numbers::Hex);
+        let bytes = scan.bytes(run, numbers);
+        let decimal = scan.decimal_bytes(run).filter(|decimal| form.numbers.is_none() && *decimal != bytes);
+        let counted = header.is_some_and(|header| header.number == run.len()) || scan.is_counted(line, run);
+        let facts = Facts {
+            colon: run.colon,
+            dumped: context.dumped,
+            bare: context.bare,
+            said: marks.is_some() || run.said || run.sender.is_some_and(|(_, weight)| weight == Weight::Strong)
+                || (own.is_none() && sender.is_some()),
+            counted,
+            of_leftovers: scan.of_leftovers || header.is_some_and(|header| header.leftovers),
+            rest: context.rest,
+            ..self::facts(line, run, scan)
+        };
+        sink(Event::Piece(Piece {
+            bytes,
+            decimal,
+            breaks,
+            places: &scan.places[run.first..run.end],
+            line: self.line,
+            offset: self.offset,
+            time: context.time.or(header.and_then(|header| header.time)).or(if context.dumped { self.remembered } else { None }),
+            sender: marks.or(sender),
+            port: (!port.is_empty()).then_some(port),
+            joins: context.joins,
+            facts,
+        }));
+    }
+
+    /// A line without bytes: it may say who speaks in the next one, and when.
+    fn without_bytes(&mut self, line: &[u8], time: Option<i64>, sink: &mut dyn FnMut(Event<'_>)) {
+        /// More are a sentence, unless a colon ends it.
+        const WORDS: usize = 6;
+        if self.long {
+            return;
+        }
+        let sender = self.scan.sender.map(|(sender, _)| sender);
+        let heading = line.trim_ascii_end().ends_with(b":");
+        let number = self.scan.last_number(line);
+        let heads = (sender.is_some() && self.scan.words <= WORDS) || heading;
+        self.drop_header(sink);
+        if heads {
+            let port = self.scan.port.clone();
+            let leftovers = self.scan.of_leftovers;
+            let (line, offset) = (self.line, self.offset);
+            self.header = Some(Header { time, sender, port, line, offset, row: 0, number, leftovers });
+        } else {
+            self.remembered = time;
+            sink(Event::Unread { line: self.line, offset: self.offset });
+        }
+    }
+
+    /// A header below which nothing came was no header.
+    fn drop_header(&mut self, sink: &mut dyn FnMut(Event<'_>)) {
+        if let Some(header) = self.header.take().filter(|header| header.row == 0) {
+            sink(Event::Unread { line: header.line, offset: header.offset });
+        }
+    }
+
+    /// Whether a line is a row of a list that goes on, or that went on in the row before.
+    fn is_row_of_list(&self, line: &[u8]) -> bool {
+        if self.long || self.form.flow.is_some() || self.form.marks.is_some() {
+            return false;
+        }
+        let code = without_comment(line);
+        let goes_on = code.trim_ascii_end().ends_with(b",");
+        let Some(first) = self.scan.runs.first().filter(|run| run.span.to <= code.len()) else { return false };
+        let begins = !code[..first.span.from].iter().any(u8::is_ascii_alphanumeric);
+        let last = self.scan.runs.iter().rfind(|run| run.span.to <= code.len()).unwrap_or(first);
+        let ends = !code[last.span.to..].iter().any(u8::is_ascii_alphanumeric);
+        match self.list.bytes.is_empty() {
+            true => goes_on && ends && self.scan.time.is_none() && (begins || last.marked),
+            false => begins && ends,
+        }
+    }
+
+    fn take_row_of_list(&mut self, line: &[u8], time: Option<i64>, sink: &mut dyn FnMut(Event<'_>)) {
+        let code = without_comment(line);
+        if self.list.bytes.is_empty() {
+            self.end_columns(sink);
+            let facts = self.scan.runs.first().map_or_else(Facts::default, |run| facts(line, run, &self.scan));
+            let header = self.header.take();
+            self.list.sender = self.scan.sender.map(|(sender, _)| sender).or(header.and_then(|it| it.sender));
+            self.list.facts = Facts { wrapped: true, said: self.list.sender.is_some(), ..facts };
+            (self.list.line, self.list.offset, self.list.time) = (self.line, self.offset, time);
+            self.list.both = true;
+        } else {
+            self.list.breaks.push(self.list.bytes.len());
+        }
+        let base = (self.offset - self.list.offset) as usize;
+        for run in self.scan.runs.iter().filter(|run| run.span.to <= code.len()) {
+            let bytes = self.scan.bytes(run, self.form.numbers.unwrap_or(Numbers::Hex));
+            self.list.bytes.extend_from_slice(bytes);
+            match self.scan.decimal_bytes(run) {
+                Some(decimal) if self.form.numbers.is_none() => self.list.decimal.extend_from_slice(decimal),
+                _ if run.marked => self.list.decimal.extend_from_slice(bytes),
+                _ => self.list.both = false,
+            }
+            self.list.places.extend(self.scan.places[run.first..run.end].iter().map(|place| place.shifted(base)));
+        }
+        let goes_on = code.trim_ascii_end().ends_with(b",");
+        if !goes_on || self.list.bytes.len() > LONGEST_LIST {
+            self.end_list(sink);
+        }
+    }
+
+    fn end_list(&mut self, sink: &mut dyn FnMut(Event<'_>)) {
+        let List { bytes, decimal, both, places, breaks, line, offset, facts, sender, time } = &mut self.list;
+        if bytes.is_empty() {
+            return;
+        }
+        sink(Event::Piece(Piece {
+            decimal: (*both && decimal.len() == bytes.len() && decimal != bytes).then_some(decimal),
+            bytes,
+            breaks,
+            places,
+            line: *line,
+            offset: *offset,
+            time: *time,
+            sender: *sender,
+            port: None,
+            joins: false,
+            facts: *facts,
+        }));
+        for part in [bytes, decimal] {
+            part.clear();
+        }
+        places.clear();
+        breaks.clear();
+    }
+
+    fn end_columns(&mut self, sink: &mut dyn FnMut(Event<'_>)) {
+        if self.columns.is_empty() {
+            return;
+        }
+        let sender = self.header.as_ref().and_then(|header| header.sender);
+        let (line, offset, columns) = self.columns.end();
+        for column in &columns {
+            let decimal = (column.decimal != column.bytes).then_some(column.decimal.as_slice());
+            sink(Event::Piece(Piece {
+                bytes: &column.bytes,
+                decimal,
+                breaks: &[],
+                places: &column.places,
+                line,
+                offset,
+                time: None,
+                sender,
+                port: None,
+                joins: false,
+                facts: Facts { column: true, ..Facts::default() },
+            }));
+        }
+    }
+}
+
+/// What is known where a run is given.
+#[derive(Clone, Copy, Debug, Default)]
+struct Context {
+    time: Option<i64>,
+    joins: bool,
+    dumped: bool,
+    bare: bool,
+    rest: bool,
+}
+
+/// Whether what a header says is said of a line that is not bare: one without words of its own.
+fn header_fits(scan: &Scan) -> bool {
+    scan.words == 0 && scan.time.is_none()
+}
+
+/// What a line without its comment is, where one begins behind a blank: `0x01, // unit`.
+fn without_comment(line: &[u8]) -> &[u8] {
+    let blank = |at: usize| at == 0 || line[at - 1].is_ascii_whitespace();
+    let begins = |at: &usize| {
+        let rest = &line[*at..];
+        blank(*at) && (rest.starts_with(b"//") || rest.starts_with(b"# ") || rest.starts_with(b"-- "))
+    };
+    memchr::memchr3_iter(b'/', b'#', b'-', line).find(begins).map_or(line, |at| &line[..at])
+}
+
+/// The last sign before a run, blanks and one bracket or quote aside.
+fn lead(line: &[u8], run: &Run) -> u8 {
+    let before = line[..run.span.from].trim_ascii_end();
+    before.last().copied().unwrap_or_default()
+}
+
+/// Whether a colon or the like stands before a run.
+fn is_labelled(line: &[u8], run: &Run) -> bool {
+    let before = line[..run.span.from].trim_ascii_end();
+    let open = matches!(before.last(), Some(b'[' | b'(' | b'{' | b'<' | b'"' | b'\'' | b'`' | b'*' | b'_'));
+    let before = if open { before[..before.len() - 1].trim_ascii_end() } else { before };
+    matches!(before.last(), Some(b':' | b'=' | b'>' | b'-'))
+}
+
+/// What a line says of a run by how it stands there.
+fn facts(line: &[u8], run: &Run, scan: &Scan) -> Facts {
+    /// So near behind a run an ellipsis is one of its bytes.
+    const ELLIPSIS: usize = 40;
+    let lead = lead(line, run);
+    let behind = line[run.span.to..].trim_ascii_start();
+    let closes = match lead {
+        b'[' => b']',
+        b'(' => b')',
+        b'{' => b'}',
+        b'<' => b'>',
+        quote => quote,
+    };
+    let wrapped = matches!(lead, b'[' | b'(' | b'{' | b'<' | b'"' | b'\'' | b'`') && behind.first() == Some(&closes)
+        || run.style == Style::Escaped;
+    let near = &behind[..behind.len().min(ELLIPSIS)];
+    let dots = behind.iter().take_while(|c| **c == b'.').count();
+    let ends = behind.get(dots).is_none_or(|c| c.is_ascii_whitespace() || matches!(c, b')' | b']' | b'"'));
+    let placeholder = [b"xx", b"??", b"XX"].iter().any(|sign| behind.starts_with(*sign));
+    let ellipsis = ["…".as_bytes(), "・・".as_bytes()].iter().any(|sign| memchr::memmem::find(near, sign).is_some());
+    let abridged = !scan.column && (((2..=4).contains(&dots) && ends) || placeholder || ellipsis);
+    let shape = run.word ^ (u32::from(lead) << 24) ^ (run.style as u32 + 1).wrapping_mul(0x9E37_79B1);
+    Facts {
+        labelled: is_labelled(line, run),
+        wrapped,
+        marked: run.marked,
+        of_telegrams: scan.of_telegrams,
+        of_leftovers: scan.of_leftovers,
+        abridged,
+        slips: scan.words == 0 && (scan.slips > 0 || scan.runs.iter().any(|other| other.first != run.first && other.span.len() == 1)),
+        shape,
+        ..Facts::default()
+    }
+}
+
+/// Swaps the bytes of words that are written as one number each.
+fn swap_words(scan: &mut Scan) {
+    for run in &scan.runs {
+        let words = scan.places[run.first..run.end].chunks(2);
+        if words.clone().all(|pair| pair.len() == 2 && pair[0].to == pair[1].from) {
+            for pair in scan.hex[run.first..run.end].chunks_exact_mut(2) {
+                pair.swap(0, 1);
+            }
+        }
+    }
+}
+
+/// What the beginning of a text tells about it.
+#[derive(Clone, Copy, Debug)]
+pub struct Recognised {
+    pub layout: Option<&'static Layout>,
+    /// How all its numbers are written; `None` where each line has to tell.
+    pub numbers: Option<Numbers>,
+    /// How most bytes are written.
+    pub style: Option<Style>,
+    /// Lines of the beginning with bytes.
+    pub with_bytes: usize,
+    /// Those of them that say more than the bytes: who speaks, when, an offset.
+    pub telling: usize,
+    /// Those of them that are rows of a dump.
+    pub dumped: usize,
+}
+
+/// Looks at the beginning of a text.
+pub fn recognise(text: &[u8]) -> Recognised {
+    const ENOUGH: usize = 1 << 16;
+    let text = &text[..text.len().min(ENOUGH)];
+    let mut shown = [0; LAYOUTS.len()];
+    for line in text.split(|c| matches!(c, b'\n' | b'\r')) {
+        if let Some(index) = LAYOUTS.iter().position(|layout| layout.shows(line)) {
+            shown[index] += 1;
+        }
+    }
+    let best = LAYOUTS.iter().zip(shown).filter(|(_, count)| *count > 0).max_by_key(|(_, count)| *count);
+    let layout = best.map(|(layout, _)| layout);
+    let (mut with_bytes, mut telling, mut dumped) = (0, 0, 0);
+    let mut reader = Reader::default();
+    let mut count = |event: Event<'_>| {
+        if let Event::Piece(piece) = event {
+            with_bytes += 1;
+            dumped += usize::from(piece.facts.dumped);
+            telling += usize::from(piece.sender.is_some() || piece.time.is_some() || piece.joins);
+        }
+    };
+    reader.push(text, &mut count);
+    reader.finish(&mut count);
+    let (numbers, style) = numbers(text);
+    let numbers = layout.and_then(|layout| layout.numbers).or(numbers);
+    Recognised { layout, numbers, style, with_bytes, telling, dumped }
+}
+
+/// Whether each line's first number counts the bytes behind it, with nothing else to tell it from
+/// them: `8 01 03 00 C8 00 03 84 35`.
+pub fn counted(text: &[u8], numbers: Option<Numbers>) -> bool {
+    const ENOUGH: usize = 1 << 14;
+    let text = &text[..text.len().min(ENOUGH)];
+    // The last line may be cut.
+    let end = text.iter().rposition(|c| matches!(c, b'\n' | b'\r')).unwrap_or(text.len());
+    let mut scan = Scan::default();
+    let (mut least, mut most) = (usize::MAX, 0);
+    for line in text[..end].split(|c| matches!(c, b'\n' | b'\r')) {
+        scan.read(line, 0, numbers);
+        let Some(run) = scan.runs.iter().filter(|run| run.len() >= SHORTEST).max_by_key(|run| run.len()) else {
+            continue;
+        };
+        if !scan.counts(run) {
+            return false;
+        }
+        (least, most) = (least.min(run.len()), most.max(run.len()));
+    }
+    // Telegrams of one length for one unit could look the same.
+    least < most
+}
+
+/// How all numbers of a text are written, if its lines leave no doubt, and how most bytes are written.
+fn numbers(text: &[u8]) -> (Option<Numbers>, Option<Style>) {
+    /// So many lines leave no doubt.
+    const SURE: usize = 8;
+    let mut scan = Scan::default();
+    let (mut hex, mut decimal) = (0, 0);
+    let mut styles = [0; Style::ALL.len()];
+    for line in text.split(|c| matches!(c, b'\n' | b'\r')) {
+        scan.read(line, 0, None);
+        if let Some(run) = scan.runs.iter().max_by_key(|run| run.len()) {
+            styles[run.style as usize] += run.len();
+            if run.len() >= SHORTEST {
+                hex += usize::from(run.hex && !run.decimal);
+                decimal += usize::from(!run.hex && run.decimal);
+            }
+        }
+    }
+    let style = Style::ALL.into_iter().zip(styles).filter(|(_, count)| *count > 0).max_by_key(|(_, count)| *count);
+    let numbers = match (hex, decimal) {
+        (SURE.., 0) => Some(Numbers::Hex),
+        (0, SURE..) => Some(Numbers::Decimal),
+        _ => None,
+    };
+    (numbers, style.map(|(style, _)| style))
 }

@@ -1,15 +1,12 @@
-use std::cmp::Ordering;
-use std::mem::discriminant;
-
 use crate::device::{self, Profile};
-use crate::dialogue::{self, Candidate, Certainty, Choice, Guess, Pairing};
+use crate::dialogue::{Certainty, Choice, Guess};
 use crate::field::{self, Argument, Direction, Severity, Span};
-use crate::frame::{self, Content, Frame, Protocol, Speaker, Verdict, modbus_ascii};
+use crate::frame::{self, Content, Frame, Protocol, Speaker, Verdict};
 use crate::message;
 use crate::modbus::Pdu;
 use crate::profibus::jobs::{self, Jobs, Step};
 use crate::profibus::{Channel, Service};
-use crate::text::{self, Line, Remark, Style};
+use crate::text::{Line, Remark, Style};
 use crate::walk::{self, guide};
 
 /// How a text is to be read.
@@ -31,58 +28,6 @@ pub struct Settings {
     pub frame: frame::Settings,
     /// What registers and process data mean.
     pub device: device::Settings,
-}
-
-/// Reads every telegram of `text`, a line each.
-///
-/// Here the telegrams are found, checked and paired. Their fields are read one by one by
-/// [`Report::detail`], when somebody looks.
-pub fn decode(text: &str, mut options: Options) -> Report {
-    let ident = &mut options.settings.frame.profibus.ident;
-    *ident = ident.or(options.device.and_then(|device| device.ident));
-    let reading = text::read(text);
-    let mut report = Report {
-        telegrams: Vec::new(),
-        not_understood: Vec::new(),
-        style: reading.style,
-        line_count: text.lines().count(),
-        options,
-        ..Report::default()
-    };
-    let (mut lines, empty): (Vec<Line>, Vec<Line>) = reading
-        .lines
-        .into_iter()
-        .map(|line| report.explain_display(text, line))
-        .partition(|line| !line.bytes.is_empty());
-    report.not_understood = empty;
-    // What a person sets counts more than what bytes look like.
-    if report.options.protocol.is_none_or(|protocol| protocol.is(&modbus_ascii::PROTOCOL)) {
-        lines.iter_mut().for_each(characters_to_bytes);
-    }
-    let choices = report.protocols(&lines);
-    let mut telegrams = Vec::new();
-    for (line, choice) in lines.into_iter().zip(choices) {
-        let mut rest = Some(line);
-        while let Some(mut line) = rest.take() {
-            let length = (choice.protocol.first)(&line.bytes).max(1);
-            rest = split(&mut line, length);
-            telegrams.push((line, choice.clone()));
-        }
-    }
-    let leanings: Vec<i32> = telegrams
-        .iter()
-        .filter_map(|(line, choice)| match choice.protocol.speaker {
-            Speaker::Turns(leaning) => Some(leaning(&line.bytes)),
-            _ => None,
-        })
-        .collect();
-    let mut turns = dialogue::turns(&leanings).into_iter();
-    let mut pairing = Pairing::default();
-    for (line, choice) in telegrams {
-        report.add(line, choice, &mut turns, &mut pairing);
-    }
-    report.follow();
-    report
 }
 
 /// What was found in a text.
@@ -153,6 +98,11 @@ pub struct Summary {
 }
 
 impl Report {
+    /// A text without anything in it.
+    pub(super) fn nothing(text: &str, options: Options) -> Self {
+        Self { line_count: text.lines().count(), options, ..Self::default() }
+    }
+
     /// Telegrams that were found and met with each other already.
     pub(super) fn of(telegrams: Vec<Telegram>, options: Options) -> Self {
         let mut report = Self { telegrams, options, ..Self::default() };
@@ -214,147 +164,14 @@ impl Report {
     }
 
     /// A line that is no bytes but what the device's display shows, with what that means.
-    fn explain_display(&self, text: &str, line: Line) -> Line {
-        let written = text.get(line.span.from..line.span.to).unwrap_or_default().trim();
-        let Some(shown) = self.options.device.and_then(|profile| profile.shown(written)) else { return line };
+    pub(super) fn explain_display(&self, written: &str, span: Span) -> Option<Remark> {
+        let shown = self.options.device.and_then(|profile| profile.shown(written.trim()))?;
         let message = message!(
             "on the display of the device, {text} means: {meaning}",
             text = shown.text.to_owned(),
             meaning = Argument::Term(shown.meaning)
         );
-        let remark = Remark { code: "display", severity: Severity::Warning, message, span: line.span };
-        Line { number: line.number, span: line.span, remarks: vec![remark], ..Line::default() }
-    }
-
-    /// The protocol of each line.
-    fn protocols(&self, lines: &[Line]) -> Vec<Choice> {
-        if let Some(protocol) = self.options.protocol {
-            let reason = message!("set by hand");
-            return vec![Choice { protocol, reason, others: Vec::new() }; lines.len()];
-        }
-        let candidates: Vec<Candidate<'_>> = lines
-            .iter()
-            .map(|line| Candidate {
-                bytes: &line.bytes,
-                written_as: line.colon.then_some(&modbus_ascii::PROTOCOL),
-            })
-            .collect();
-        dialogue::protocols(&candidates, &self.options.settings.frame)
-    }
-
-    fn add(
-        &mut self,
-        line: Line,
-        choice: Choice,
-        turns: &mut dyn Iterator<Item = Guess>,
-        pairing: &mut Pairing,
-    ) {
-        let index = self.telegrams.len();
-        let protocol = choice.protocol;
-        let turn = match protocol.speaker {
-            Speaker::Turns(_) => turns.next(),
-            _ => None,
-        };
-        let guess = match (self.options.direction, turn) {
-            (Some(direction), _) => {
-                Guess { direction, certainty: Certainty::Certain, reason: message!("set by hand") }
-            }
-            (None, Some(turn)) => turn,
-            (None, None) => self.guess(protocol, &line.bytes, pairing),
-        };
-        let verdict = (protocol.verdict)(&line.bytes);
-        let exchange = (protocol.exchange)(&line.bytes);
-        let answers =
-            exchange.and_then(|exchange| pairing.next(index, guess.direction, exchange, protocol.waiting));
-        if let Some(request) = answers {
-            let asked = &mut self.telegrams[request];
-            asked.answered_by = Some(index);
-            if asked.guess.certainty == Certainty::Open {
-                let reason = message!("telegram {n} answers it", n = index + 1);
-                asked.guess = Guess { certainty: Certainty::Likely, reason, ..asked.guess.clone() };
-            }
-        }
-        let unit = (protocol.unit)(&line.bytes);
-        self.telegrams.push(Telegram {
-            number: index + 1,
-            line,
-            choice,
-            guess,
-            verdict,
-            unit,
-            answers,
-            answered_by: None,
-            step: None,
-            time: None,
-            latency: None,
-            comment: String::new(),
-        });
-    }
-
-    /// Who speaks: by the bytes, and where those leave it open, by the request that waits.
-    fn guess(&self, protocol: &Protocol, bytes: &[u8], pairing: &Pairing) -> Guess {
-        let asked = (protocol.exchange)(bytes).and_then(|exchange| pairing.waiting(exchange));
-        let asked = asked.map(|index| (index, self.telegrams[index].line.bytes.as_slice()));
-        let guess = match protocol.speaker {
-            Speaker::Pdu(inside) => {
-                let (pdu, around) = inside(bytes);
-                dialogue::direction(pdu, around, asked.is_some(), self.options.settings.frame.dialect)
-            }
-            Speaker::Frame(told) => dialogue::told(told(bytes), message!("its frame says so")),
-            Speaker::Always(direction) => {
-                dialogue::told(Some(direction), message!("such telegrams go one way only"))
-            }
-            Speaker::Turns(leaning) => dialogue::leaning(leaning(bytes)),
-        };
-        if guess.certainty != Certainty::Open {
-            return guess;
-        }
-        let Some((index, asked)) = asked else { return guess };
-        let n = index + 1;
-        // Both directions have such a length: the one that makes fewer mistakes is meant.
-        let mistakes = |direction| self.mistakes(protocol, bytes, direction, index);
-        let (direction, reason) = match mistakes(Direction::Response).cmp(&mistakes(Direction::Request)) {
-            Ordering::Less => {
-                (Direction::Response, message!("as a response to telegram {n} it is right", n = n))
-            }
-            Ordering::Greater => {
-                (Direction::Request, message!("it does not fit as a response to telegram {n}", n = n))
-            }
-            Ordering::Equal if asked == bytes => (
-                Direction::Response,
-                message!("it repeats telegram {n}, as a response of this function does", n = n),
-            ),
-            Ordering::Equal if !self.echoes(protocol, bytes) => {
-                (Direction::Response, message!("telegram {n} waits for such a response", n = n))
-            }
-            Ordering::Equal => return guess,
-        };
-        Guess { direction, certainty: Certainty::Likely, reason }
-    }
-
-    /// Whether request and response of the function are laid out alike.
-    fn echoes(&self, protocol: &Protocol, bytes: &[u8]) -> bool {
-        let Speaker::Pdu(inside) = protocol.speaker else { return false };
-        let dialect = self.options.settings.frame.dialect;
-        inside(bytes).0.first().is_none_or(|function| {
-            let [request, response] = [Direction::Request, Direction::Response]
-                .map(|direction| discriminant(&Pdu::kind(*function, direction, dialect).length));
-            request == response
-        })
-    }
-
-    /// How many problems `bytes` would have as a telegram of `direction`; a response answers
-    /// telegram `request`.
-    fn mistakes(&self, protocol: &Protocol, bytes: &[u8], direction: Direction, request: usize) -> usize {
-        let settings = &self.options.settings.frame;
-        let mut frame = (protocol.expect)(bytes, direction, settings);
-        if direction == Direction::Response {
-            let asked = &self.telegrams[request].line.bytes;
-            let mut request = (protocol.expect)(asked, Direction::Request, settings);
-            walk::read(request.as_mut(), asked);
-            frame.answer(&request.content());
-        }
-        field::problems(&walk::read(frame.as_mut(), bytes).fields).len()
+        Some(Remark { code: "display", severity: Severity::Warning, message, span })
     }
 
     /// A frame of the kind of telegram `index` with nothing read into it yet.
@@ -474,28 +291,4 @@ struct Known {
     from: usize,
     unit: Option<u8>,
     settings: Settings,
-}
-
-/// Puts bytes in place of the characters of Modbus ASCII that stand for them.
-fn characters_to_bytes(line: &mut Line) {
-    if let Some(bytes) = modbus_ascii::from_characters(&line.bytes) {
-        // Each byte stands where its two digits do; colon and line end belong to the first and last.
-        let places = line.places[1..].chunks(2).take(bytes.len());
-        line.places = places.map(|pair| Span::new(pair[0].from, pair[pair.len() - 1].to)).collect();
-        line.bytes = bytes;
-        line.colon = true;
-    }
-}
-
-/// Takes what comes behind the first `length` bytes of a line from it.
-fn split(line: &mut Line, length: usize) -> Option<Line> {
-    let next = line.places.get(length)?.from;
-    let bytes = line.bytes.split_off(length);
-    let places = line.places.split_off(length);
-    let (remarks, kept) =
-        std::mem::take(&mut line.remarks).into_iter().partition(|remark| remark.span.from >= next);
-    line.remarks = kept;
-    let span = Span::new(next, line.span.to);
-    line.span.to = next;
-    Some(Line { number: line.number, span, bytes, places, remarks, colon: line.colon })
 }

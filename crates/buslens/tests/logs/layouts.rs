@@ -1,7 +1,7 @@
 use std::fmt::Write as _;
 
 use buslens::field::{Direction, hex};
-use buslens::text::log::{LAYOUTS, Layout, recognise};
+use buslens::text::{LAYOUTS, Layout, recognise};
 use buslens::tool::log::{Log, Reading, Source};
 use buslens::tool::{Options, Report, decode_file};
 

@@ -2,10 +2,13 @@ use std::collections::HashMap;
 
 use super::conversation;
 use super::entry::{Entry, Hint, NO_TIME, NOBODY, Role};
-use crate::field::{Direction, Span};
+use super::judge::{Shapes, Weak};
+use super::pieces::Held;
+use crate::dialogue::evidence;
+use crate::field::{Direction, Facts, Span};
 use crate::frame::split::{Begins, Place, Splitter, Waiting, can_split};
 use crate::frame::{
-    PROTOCOLS, Protocol, Settings, Verdict, modbus_ascii, modbus_rtu, modbus_tcp, profibus_fdl,
+    PROTOCOLS, Protocol, Settings, Verdict, modbus_rtu, modbus_tcp,
 };
 use crate::modbus::EXCEPTION;
 use crate::walk::crc_residue;
@@ -24,57 +27,84 @@ pub struct Chunk<'a> {
     pub joins: bool,
     /// Each direction of the port is a stream of its own, as over TCP.
     pub both_ways: bool,
+    /// Of a connection: it goes to the port of Modbus, where all that its header tells is one.
+    pub known_port: bool,
     /// See [`Entry::line`] and [`Entry::offset`].
     pub line: u32,
     pub offset: u32,
-    /// It is written as Modbus ASCII is.
-    pub colon: bool,
+    /// Of a text: what it says of the bytes.
+    pub facts: Option<Facts>,
+    /// Of a text: the same numbers read as decimal, where they can be either.
+    pub decimal: Option<&'a [u8]>,
+    /// Of a text: where what stands between the bytes changes.
+    pub breaks: &'a [usize],
 }
 
 /// The telegrams of a log.
 #[derive(Debug)]
 pub struct Traffic {
-    splitter: Splitter,
+    pub(super) splitter: Splitter,
+    pub(super) settings: Settings,
     /// What most telegrams are.
-    protocol: &'static Protocol,
-    data: Vec<u8>,
-    entries: Vec<Entry>,
-    lanes: Vec<Lane>,
-    lane_of: HashMap<(u16, u8), usize>,
+    pub(super) protocol: &'static Protocol,
+    pub(super) data: Vec<u8>,
+    pub(super) entries: Vec<Entry>,
+    pub(super) lanes: Vec<Lane>,
+    pub(super) lane_of: HashMap<(u16, u8), usize>,
     /// The lane of the last chunk, and its port and way.
-    latest: usize,
-    latest_way: Option<(u16, u8)>,
+    pub(super) latest: usize,
+    pub(super) latest_way: Option<(u16, u8)>,
     /// The request that waits, for each port.
-    waiting: Vec<Option<Waiting>>,
+    pub(super) waiting: Vec<Option<Waiting>>,
     /// Units with their functions that had a right telegram: a bit for each.
-    seen: Vec<u64>,
+    pub(super) seen: Vec<u64>,
     /// The time of the last chunk, to notice midnight.
-    clock: i64,
-    days: i64,
+    pub(super) clock: i64,
+    pub(super) days: i64,
     /// See [`Chunk::both_ways`].
-    both_ways: bool,
+    pub(super) both_ways: bool,
     /// See [`flow`](Traffic::flow).
-    flowing: bool,
+    pub(super) flowing: bool,
     /// How many more entries fit.
-    room: usize,
+    pub(super) room: usize,
     /// See [`pauses`](Self::pauses).
-    pauses: Vec<(u32, u32)>,
+    pub(super) pauses: Vec<(u32, u32)>,
+    /// A person said of which protocol all telegrams are.
+    pub(super) by_hand: bool,
+    /// See [`directed`](Self::directed).
+    pub(super) direction: Option<Direction>,
+    /// The telegrams of a text that have no proof, in their order.
+    pub(super) weak: Vec<Weak>,
+    pub(super) shapes: Shapes,
+    /// Lines of a text with pieces that are no telegrams: number and place.
+    pub(super) passed: Vec<(u32, u32)>,
+    /// Entries that turned out to be parts of others.
+    pub(super) gone: Vec<u32>,
+    /// The line of the last piece of a text, and its bytes: what is written twice in a line is one telegram.
+    pub(super) latest_piece: (u32, Vec<u8>),
+    /// What other protocols were seen, by their place in [`FOREIGN`](crate::dialogue::foreign::FOREIGN).
+    pub(super) foreign_protocols: [u32; crate::dialogue::foreign::FOREIGN.len()],
 }
 
 /// Bytes that wait for the rest of their telegram.
 #[derive(Debug, Default)]
-struct Lane {
-    buffer: Vec<u8>,
+pub(super) struct Lane {
+    pub(super) buffer: Vec<u8>,
     /// Which chunks the bytes came in.
-    rows: Vec<Row>,
+    pub(super) rows: Vec<Row>,
     /// Telegrams follow each other without anything that parts them.
-    streaming: bool,
+    pub(super) streaming: bool,
+    /// It is a stream by its nature.
+    pub(super) stream: bool,
     /// The last telegram ended just before the buffer.
-    in_step: bool,
+    pub(super) in_step: bool,
     /// In so many bytes at the beginning no telegram begins.
-    barren: usize,
-    /// How many bytes at the beginning are a chunk that was no whole telegram.
-    held: usize,
+    pub(super) barren: usize,
+    /// Of a text: the beginning of a telegram that may go on in the next piece.
+    pub(super) held: Option<Held>,
+    /// Of a text: what is in the buffer as decimal numbers, and its breaks.
+    pub(super) decimal: Vec<u8>,
+    pub(super) breaks: Vec<usize>,
     /// Of a connection: what it carries, once its bytes tell.
     carries: Carries,
 }
@@ -92,17 +122,20 @@ enum Carries {
 /// A connection of which so many bytes tell nothing carries no telegrams.
 const TELLING: usize = 4096;
 
+/// So many bits in a PDU make one telegram of a connection enough.
+const SURE: i32 = 8;
+
 /// A chunk in a lane's buffer.
 #[derive(Clone, Copy, Debug)]
-struct Row {
+pub(super) struct Row {
     /// Its first byte in the buffer; below 0 where that is gone.
-    from: isize,
-    time: i64,
-    hint: Hint,
-    port: u16,
-    line: u32,
-    offset: u32,
-    colon: bool,
+    pub(super) from: isize,
+    pub(super) time: i64,
+    pub(super) hint: Hint,
+    pub(super) port: u16,
+    pub(super) line: u32,
+    pub(super) offset: u32,
+    pub(super) facts: Facts,
 }
 
 /// More entries than this would not fit into the memory of a page.
@@ -112,13 +145,14 @@ const MOST_ENTRIES: usize = 16_000_000;
 const LONG: usize = 1024;
 
 /// Where chunks of a telegram lie further apart, they are none.
-const PAUSE: i64 = 1_000_000;
+pub(super) const PAUSE: i64 = 1_000_000;
 
 impl Traffic {
     /// For telegrams that are mostly of `protocol`.
     pub fn new(protocol: &'static Protocol, settings: &Settings) -> Self {
         Self {
             splitter: Splitter::new(settings.dialect),
+            settings: settings.clone(),
             protocol,
             data: Vec::new(),
             entries: Vec::new(),
@@ -134,6 +168,14 @@ impl Traffic {
             flowing: false,
             room: MOST_ENTRIES,
             pauses: Vec::new(),
+            by_hand: false,
+            direction: None,
+            weak: Vec::new(),
+            shapes: Shapes::default(),
+            passed: Vec::new(),
+            gone: Vec::new(),
+            latest_piece: (0, Vec::new()),
+            foreign_protocols: [0; crate::dialogue::foreign::FOREIGN.len()],
         }
     }
 
@@ -155,10 +197,16 @@ impl Traffic {
         let flows = self.flowing && lane.rows.last().is_some_and(|row| row.goes_on(chunk.hint, time));
         let stays = (chunk.joins || flows) && (!lane.rows.is_empty() || lane.streaming);
         if !stays {
-            self.end_chunk(index, &chunk, time);
+            self.end_piece(index);
         }
         let lane = &mut self.lanes[index];
         lane.streaming |= chunk.both_ways || self.flowing;
+        lane.breaks.clear();
+        lane.decimal.clear();
+        if !stays {
+            lane.breaks.extend_from_slice(chunk.breaks);
+            lane.decimal.extend_from_slice(chunk.decimal.unwrap_or_default());
+        }
         let row = Row {
             from: lane.buffer.len() as isize,
             time,
@@ -166,9 +214,9 @@ impl Traffic {
             port: chunk.port,
             line: chunk.line,
             offset: chunk.offset,
-            colon: chunk.colon,
+            facts: chunk.facts.unwrap_or_default(),
         };
-        if chunk.both_ways && !self.told(index, chunk.bytes, row) {
+        if chunk.both_ways && !self.told(index, &chunk, row) {
             return true;
         }
         let lane = &mut self.lanes[index];
@@ -196,6 +244,7 @@ impl Traffic {
     pub fn stream(&mut self) {
         let index = self.lane(0, 0);
         self.lanes[index].streaming = true;
+        self.lanes[index].stream = true;
     }
 
     /// `taken` of a file's `size` bytes were read: makes room for what the rest will need, if it is like
@@ -224,16 +273,33 @@ impl Traffic {
         self.flowing = true;
     }
 
-    /// The log ends: what is left is read, and the telegrams are met with each other.
-    pub fn finish(&mut self) {
+    /// Every piece of a text is a telegram of the protocol, since a person says so.
+    pub fn by_hand(&mut self) {
+        self.by_hand = true;
+    }
+
+    /// Who speaks in all telegrams, where a person says so.
+    pub fn directed(&mut self, direction: Option<Direction>) {
+        self.direction = direction;
+    }
+
+    /// The log ends: what is left is read, what has no proof is judged, and the telegrams are met with each
+    /// other. `typed` says that a text holds nothing but what should be telegrams.
+    pub fn finish(&mut self, typed: bool) {
         for index in 0..self.lanes.len() {
             self.close(index);
         }
+        self.judge(typed);
         // What a capture says of a connection needs no guess.
         if !self.both_ways {
             conversation::join_speakers(&mut self.entries);
         }
         conversation::meet(&mut self.entries, &self.data);
+    }
+
+    /// Lines of a text whose pieces are no telegrams: number and place, in order.
+    pub fn passed(&self) -> &[(u32, u32)] {
+        &self.passed
     }
 
     pub fn entries(&self) -> &[Entry] {
@@ -277,23 +343,17 @@ impl Traffic {
         self.clock
     }
 
-    /// A chunk follows that does not join: what is there is a piece by itself, unless it is the
-    /// beginning of a telegram that may go on.
-    fn end_chunk(&mut self, index: usize, next: &Chunk<'_>, time: i64) {
-        let lane = &self.lanes[index];
-        if lane.streaming || lane.buffer.is_empty() {
-            return self.close(index);
-        }
-        self.read_piece(index, true);
-        let lane = &self.lanes[index];
-        let Some(row) = lane.rows.last().filter(|_| lane.held > 0) else { return };
-        if !row.goes_on(next.hint, time) || next.colon {
-            self.close(index);
+    /// A chunk follows that does not join.
+    fn end_piece(&mut self, index: usize) {
+        self.close(index);
+        if !self.both_ways && !self.flowing && self.lanes[index].rows.is_empty() {
+            let lane = &mut self.lanes[index];
+            lane.streaming &= lane.stream;
         }
     }
 
     /// Tells what a connection carries; `false` where it is not known yet, or is of no interest.
-    fn told(&mut self, index: usize, bytes: &[u8], row: Row) -> bool {
+    fn told(&mut self, index: usize, chunk: &Chunk<'_>, row: Row) -> bool {
         match self.lanes[index].carries {
             Carries::Protocol(_) => return true,
             Carries::Foreign => return false,
@@ -301,11 +361,26 @@ impl Traffic {
         }
         let lane = &mut self.lanes[index];
         lane.rows.push(row);
-        lane.buffer.extend_from_slice(bytes);
-        let place = Place { bytes: &lane.buffer, last: false, in_step: true, waiting: None };
+        lane.buffer.extend_from_slice(chunk.bytes);
         let protocols: [&'static Protocol; 2] = [&modbus_tcp::PROTOCOL, &modbus_rtu::PROTOCOL];
+        // What was captured may begin within a telegram: the next one begins with a segment.
         let begins = |protocol: &&&'static Protocol| {
-            matches!(self.splitter.begins(protocol, place), Begins::Telegram(_))
+            let telegrams = lane.rows.iter().filter_map(|row| {
+                let bytes = &lane.buffer[usize::try_from(row.from).unwrap_or_default()..];
+                let place = Place { bytes, last: false, in_step: chunk.known_port, waiting: None };
+                match self.splitter.begins(protocol, place) {
+                    Begins::Telegram(length) => Some(&bytes[..length]),
+                    _ => None,
+                }
+            });
+            // Elsewhere than at the port of Modbus, bytes of other protocols may fit by accident.
+            let (mut count, mut sure) = (0, chunk.known_port || protocol.is(&modbus_rtu::PROTOCOL));
+            for telegram in telegrams {
+                count += 1;
+                let pdu = telegram.get(modbus_tcp::HEADER..).unwrap_or_default();
+                sure |= evidence::structure(pdu, &self.splitter).is_some_and(|bits| bits >= SURE);
+            }
+            count > 1 || (count == 1 && sure)
         };
         if let Some(protocol) = protocols.iter().find(begins) {
             lane.carries = Carries::Protocol(protocol);
@@ -319,7 +394,7 @@ impl Traffic {
     }
 
     /// What most telegrams of a lane are.
-    fn main(&self, index: usize) -> &'static Protocol {
+    pub(super) fn main(&self, index: usize) -> &'static Protocol {
         match self.lanes[index].carries {
             Carries::Protocol(protocol) => protocol,
             _ => self.protocol,
@@ -327,7 +402,7 @@ impl Traffic {
     }
 
     /// The last telegram came in several chunks: notes the longest pause between them.
-    fn note_pause(&mut self, index: usize) {
+    pub(super) fn note_pause(&mut self, index: usize) {
         let rows = self.lanes[index].rows.windows(2);
         let timed = rows.filter(|pair| pair[0].time != NO_TIME && pair[1].time != NO_TIME);
         if let Some(pause) = timed.map(|pair| pair[1].time - pair[0].time).max()
@@ -352,143 +427,15 @@ impl Traffic {
         let Some(lane) = self.lanes.get_mut(index) else { return };
         if lane.buffer.is_empty() {
             lane.rows.clear();
+        } else if self.both_ways && matches!(lane.carries, Carries::Unknown) {
+            lane.carries = Carries::Foreign;
+            lane.buffer.clear();
+            lane.rows.clear();
         } else if lane.streaming {
             self.drain_buffer(index, true);
         } else {
-            self.read_piece(index, false);
+            self.read_piece(index);
         }
-    }
-
-    /// Reads a piece that is by itself. With `may_go_on`, what could be the beginning of a longer
-    /// telegram is held back.
-    fn read_piece(&mut self, index: usize, may_go_on: bool) {
-        let buffer = std::mem::take(&mut self.lanes[index].buffer);
-        let held = std::mem::take(&mut self.lanes[index].held);
-        let mut from = 0;
-        if held > 0 && !self.whole(index, &buffer, 0) {
-            let rest = &buffer[held..];
-            let longer = may_go_on && self.is_beginning(&buffer) && !is_right(rest);
-            if longer {
-                (self.lanes[index].held, self.lanes[index].buffer) = (buffer.len(), buffer);
-                return;
-            }
-            self.broken(index, &buffer[..held], 0);
-            from = held;
-        } else if held > 0 {
-            self.note_pause(index);
-            from = buffer.len();
-        }
-        let piece = &buffer[from..];
-        if !piece.is_empty() && !self.whole(index, piece, from) && !self.inside(index, piece, from) {
-            if may_go_on && self.is_beginning(piece) {
-                let lane = &mut self.lanes[index];
-                lane.forget(from);
-                lane.held = piece.len();
-                lane.buffer = piece.to_vec();
-                return;
-            }
-            self.broken(index, piece, from);
-        }
-        let lane = &mut self.lanes[index];
-        lane.buffer = buffer;
-        lane.buffer.clear();
-        lane.rows.clear();
-    }
-
-    /// Whether an RTU telegram that begins so is longer.
-    fn is_beginning(&self, bytes: &[u8]) -> bool {
-        self.protocol.is(&modbus_rtu::PROTOCOL) && self.splitter.is_beginning(bytes)
-    }
-
-    /// Takes a piece that is one right telegram.
-    fn whole(&mut self, index: usize, piece: &[u8], from: usize) -> bool {
-        let row = self.lanes[index].row(from);
-        if row.colon && !self.protocol.is(&profibus_fdl::PROTOCOL) {
-            let verdict = modbus_ascii::ASCII.verdict(piece);
-            self.add(index, piece, from, &modbus_ascii::PROTOCOL, verdict);
-            return true;
-        }
-        if let [b':', ..] = piece
-            && let Some(bytes) = modbus_ascii::from_characters(piece)
-        {
-            let verdict = modbus_ascii::ASCII.verdict(&bytes);
-            self.add(index, &bytes, from, &modbus_ascii::PROTOCOL, verdict);
-            return true;
-        }
-        let main = self.protocol;
-        if !can_split(main) && !main.is(&modbus_ascii::PROTOCOL) {
-            let mut at = 0;
-            while at < piece.len() {
-                let length = (main.first)(&piece[at..]).max(1);
-                let bytes = &piece[at..at + length];
-                self.add(index, bytes, from + at, main, (main.verdict)(bytes));
-                at += length;
-            }
-            return true;
-        }
-        // A frame whose PDU has no length that its function has may hold a shorter one.
-        if is_right(piece)
-            && (self.splitter.sides(&piece[1..piece.len() - 2]) != [false; 2]
-                || !self.splitter.knows(piece[1]))
-        {
-            self.add(index, piece, from, &modbus_rtu::PROTOCOL, Verdict::Right);
-            return true;
-        }
-        let place = Place { bytes: piece, last: true, in_step: true, waiting: None };
-        let strict = Place { in_step: main.is(&modbus_tcp::PROTOCOL), ..place };
-        if self.splitter.begins(&modbus_tcp::PROTOCOL, strict) == Begins::Telegram(piece.len()) {
-            self.add(index, piece, from, &modbus_tcp::PROTOCOL, Verdict::NoCheck);
-            return true;
-        }
-        let fdl = main.is(&profibus_fdl::PROTOCOL);
-        if self.splitter.begins(&profibus_fdl::PROTOCOL, place) == Begins::Telegram(piece.len())
-            && (fdl || piece.len() > 3)
-        {
-            let checked = profibus_fdl::Fdl::check_matches(piece);
-            let verdict = if checked { Verdict::Right } else { Verdict::NoCheck };
-            self.add(index, piece, from, &profibus_fdl::PROTOCOL, verdict);
-            return true;
-        }
-        if main.is(&modbus_ascii::PROTOCOL) {
-            self.add(index, piece, from, main, (main.verdict)(piece));
-            return true;
-        }
-        is_right(piece) && {
-            // Unless there is one inside, the check counts more than the length.
-            let inner = self.splitter.rtu_lengths(piece).into_iter().flatten();
-            let mut inner = inner.filter(|length| *length < piece.len());
-            // A check that is right before the telegram's end says little: zeros may follow.
-            let none = !self.is_beginning(piece) && !inner.any(|length| is_right(&piece[..length]));
-            if none {
-                self.add(index, piece, from, &modbus_rtu::PROTOCOL, Verdict::Right);
-            }
-            none
-        }
-    }
-
-    /// Takes the telegrams inside a piece, if they are most of it.
-    fn inside(&mut self, index: usize, piece: &[u8], from: usize) -> bool {
-        let main = self.protocol;
-        if !can_split(main) {
-            return false;
-        }
-        if self.splitter.covered(main, piece) * 2 <= piece.len() {
-            return false;
-        }
-        (self.lanes[index].in_step, self.lanes[index].barren) = (true, 0);
-        self.split(index, piece, from, true);
-        true
-    }
-
-    /// Takes a piece as one telegram with something wrong.
-    fn broken(&mut self, index: usize, piece: &[u8], from: usize) {
-        const LONGEST: usize = 300;
-        if piece.len() > LONGEST {
-            let kept = keep(&mut self.data, piece);
-            return self.discard(index, piece, from, kept);
-        }
-        let main = self.protocol;
-        self.add(index, piece, from, main, (main.verdict)(piece));
     }
 
     /// Takes the telegrams out of what waits in a lane.
@@ -528,8 +475,11 @@ impl Traffic {
             let place = Place { bytes: &bytes[at..], last, in_step, waiting };
             match self.splitter.begins(main, place) {
                 Begins::Telegram(length) => {
-                    let length =
-                        if flowing { self.by_pauses(index, place, from + at, length) } else { length };
+                    let length = match () {
+                        () if flowing => self.by_pauses(index, place, from + at, length),
+                        () if self.both_ways => self.by_segments(index, place, from + at, length),
+                        () => length,
+                    };
                     let kept = *kept.get_or_insert_with(|| keep(&mut self.data, bytes));
                     if garbage < at {
                         self.unframed(index, &bytes[garbage..at], from + garbage, kept + garbage);
@@ -568,6 +518,20 @@ impl Traffic {
         garbage
     }
 
+    /// How long the telegram at `from` of a connection is: `length`, unless a segment within it begins with
+    /// another one, so that the header counted too many.
+    fn by_segments(&self, index: usize, place: Place<'_>, from: usize, length: usize) -> usize {
+        let (first, end) = (from as isize + modbus_tcp::HEADER as isize, (from + length) as isize);
+        let rows = self.lanes[index].rows.iter().map(|row| row.from).filter(|row| (first..end).contains(row));
+        let begins = |row: &isize| {
+            let bytes = &place.bytes[*row as usize - from..];
+            let place = Place { bytes, in_step: false, ..place };
+            matches!(self.splitter.begins(&modbus_tcp::PROTOCOL, place), Begins::Telegram(_))
+        };
+        let cut = rows.into_iter().find(begins).filter(|_| self.main(index).is(&modbus_tcp::PROTOCOL));
+        cut.map_or(length, |row| row as usize - from)
+    }
+
     /// How long the telegram at `from` of a lane is: `length`, unless it is right with another length,
     /// too, behind which there is a longer pause. The request that waits counts more, and so does the
     /// answer that follows.
@@ -602,7 +566,7 @@ impl Traffic {
     }
 
     /// Bytes of a stream without a right telegram: a damaged one, if they begin or end like one.
-    fn unframed(&mut self, index: usize, bytes: &[u8], from: usize, kept: usize) {
+    pub(super) fn unframed(&mut self, index: usize, bytes: &[u8], from: usize, kept: usize) {
         let rtu = self.main(index).is(&modbus_rtu::PROTOCOL);
         let port = usize::from(self.lanes[index].row(from).port);
         let like = rtu && has_length(bytes) && {
@@ -622,14 +586,14 @@ impl Traffic {
         }
     }
 
-    fn discard(&mut self, index: usize, bytes: &[u8], from: usize, kept: usize) {
+    pub(super) fn discard(&mut self, index: usize, bytes: &[u8], from: usize, kept: usize) {
         for (part, piece) in bytes.chunks(usize::from(u16::MAX)).enumerate() {
             let at = part * usize::from(u16::MAX);
             self.push(index, piece, from + at, kept + at, self.protocol, Verdict::NoCheck, Role::Discarded);
         }
     }
 
-    fn add(
+    pub(super) fn add(
         &mut self,
         index: usize,
         bytes: &[u8],
@@ -644,7 +608,7 @@ impl Traffic {
     /// Adds the entry of `bytes`, which lie at `from` in their lane and at `kept` in the data.
     #[inline]
     #[expect(clippy::too_many_arguments, reason = "all of them are the entry's")]
-    fn push(
+    pub(super) fn push(
         &mut self,
         index: usize,
         bytes: &[u8],
@@ -684,8 +648,21 @@ impl Traffic {
         }
         if role == Role::Plain {
             self.describe(&mut entry, bytes, protocol);
+            if let Some(direction) = self.direction {
+                entry.sides = [direction == Direction::Request, direction == Direction::Response];
+                entry.hint = Hint::Says(direction);
+            }
         }
         self.entries.push(entry);
+    }
+
+    /// An entry turns out to be of another protocol.
+    pub(super) fn retype(&mut self, index: usize, bytes: &[u8], protocol: &'static Protocol, verdict: Verdict) {
+        let mut entry = self.entries[index];
+        entry.set_protocol(protocol);
+        (entry.verdict, entry.unit, entry.function, entry.sides) = (verdict, None, 0, [false; 2]);
+        self.describe(&mut entry, bytes, protocol);
+        self.entries[index] = entry;
     }
 
     /// Unit, function, and what its length says; and whether it is now waited for a response.
@@ -744,7 +721,7 @@ impl Traffic {
 
 impl Row {
     /// Whether a telegram can go on with a chunk of this hint and time.
-    fn goes_on(&self, hint: Hint, time: i64) -> bool {
+    pub(super) fn goes_on(&self, hint: Hint, time: i64) -> bool {
         let apart = time != NO_TIME && self.time != NO_TIME && time - self.time > PAUSE;
         !apart && self.hint == hint
     }
@@ -766,7 +743,7 @@ impl Lane {
 
     /// The chunk that the byte at `at` of the buffer came in.
     #[inline]
-    fn row(&self, at: usize) -> Row {
+    pub(super) fn row(&self, at: usize) -> Row {
         let at = at as isize;
         if let Some(last) = self.rows.last().filter(|last| last.from <= at) {
             return *last;
@@ -779,12 +756,12 @@ impl Lane {
             port: 0,
             line: 0,
             offset: 0,
-            colon: false,
+            facts: Facts::default(),
         })
     }
 
     /// The first `count` bytes are gone.
-    fn forget(&mut self, count: usize) {
+    pub(super) fn forget(&mut self, count: usize) {
         if count == 0 {
             return;
         }
@@ -797,19 +774,19 @@ impl Lane {
 }
 
 /// Keeps bytes; returns where.
-fn keep(data: &mut Vec<u8>, bytes: &[u8]) -> usize {
+pub(super) fn keep(data: &mut Vec<u8>, bytes: &[u8]) -> usize {
     let kept = data.len();
     data.extend_from_slice(bytes);
     kept
 }
 
 /// Whether an RTU frame can have so many bytes.
-fn has_length(bytes: &[u8]) -> bool {
+pub(super) fn has_length(bytes: &[u8]) -> bool {
     (modbus_rtu::RTU.shortest()..=modbus_rtu::RTU.longest()).contains(&bytes.len())
 }
 
 /// Whether the check of an RTU frame is right.
-fn is_right(bytes: &[u8]) -> bool {
+pub(super) fn is_right(bytes: &[u8]) -> bool {
     has_length(bytes) && crc_residue(bytes) == 0
 }
 

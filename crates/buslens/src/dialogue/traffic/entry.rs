@@ -81,8 +81,23 @@ impl Entry {
         (self.partner != NOBODY).then_some(self.partner as usize)
     }
 
+    pub(super) fn set_protocol(&mut self, protocol: &'static Protocol) {
+        // The usual one is the first.
+        self.protocol = PROTOCOLS.iter().position(|known| known.is(protocol)).unwrap_or_default() as u8;
+    }
+
     pub fn protocol(&self) -> &'static Protocol {
         PROTOCOLS[usize::from(self.protocol)]
+    }
+
+    /// Whether the log says who speaks.
+    pub fn is_said(&self) -> bool {
+        self.hint != Hint::None
+    }
+
+    /// Whether it has the length of a request, and that of a response.
+    pub fn sides(&self) -> [bool; 2] {
+        self.sides
     }
 
     /// Whether it is a telegram at all, and not one that the log has twice.

@@ -6,6 +6,8 @@
 mod collect;
 mod conversation;
 mod entry;
+mod judge;
+mod pieces;
 mod statistics;
 
 pub use collect::{Chunk, Traffic};

@@ -1,7 +1,7 @@
 use std::fmt;
 
 use super::{Input, Reading};
-use crate::text::log::{self, Encoding, Layout, Numbers};
+use crate::text::{self, Encoding, Layout, Numbers, Style};
 
 /// What a file is.
 #[derive(Clone, Debug, PartialEq)]
@@ -9,7 +9,10 @@ pub enum Format {
     Text {
         /// Known by name.
         layout: Option<&'static str>,
-        numbers: Numbers,
+        /// How numbers are written; `None` where each line tells.
+        numbers: Option<Numbers>,
+        /// How most bytes are written.
+        style: Option<Style>,
         /// Its lines say more than bytes: when, or who speaks.
         tells: bool,
     },
@@ -26,7 +29,7 @@ impl Format {
             Self::Text { layout: Some(layout), .. } => {
                 Layout::of(layout).map_or_else(String::new, |layout| layout.name.to_owned())
             }
-            Self::Text { numbers: Numbers::Decimal, .. } => "lines with decimal bytes".into(),
+            Self::Text { numbers: Some(Numbers::Decimal), .. } => "lines with decimal bytes".into(),
             Self::Text { tells: true, .. } => "lines with bytes and who sent them or when".into(),
             Self::Text { .. } => "lines with hex bytes".into(),
             Self::Stream => "raw bytes of a line".into(),
@@ -38,9 +41,9 @@ impl Format {
     pub fn key(&self) -> &'static str {
         match self {
             Self::Text { layout: Some(key), .. } => key,
-            Self::Text { numbers: Numbers::Decimal, .. } => "decimal",
+            Self::Text { numbers: Some(Numbers::Decimal), .. } => "decimal",
             Self::Text { tells: true, .. } => "log",
-            Self::Text { .. } => "hex",
+            Self::Text { style, .. } => style.map_or("hex", Style::name),
             Self::Stream => "binary",
             Self::Capture { .. } => "capture",
         }
@@ -121,7 +124,7 @@ pub(super) fn tell(beginning: &[u8], reading: &Reading) -> Result<(Format, Encod
         let instead = "a capture begins with the magic number of pcap or pcapng";
         return Err(Refusal::Foreign { name: "no capture", instead });
     }
-    let encoding = log::encoding(beginning);
+    let encoding = text::encoding(beginning);
     if reading.input == Input::Binary {
         return Ok((Format::Stream, encoding));
     }
@@ -133,14 +136,15 @@ pub(super) fn tell(beginning: &[u8], reading: &Reading) -> Result<(Format, Encod
         return Ok((Format::Stream, encoding));
     }
     let text = encoding.text(beginning);
-    let recognised = log::recognise(&text);
+    let recognised = text::recognise(&text);
     // The same list can be exported with the bytes below each line.
-    if let Some(export) = log::export(&text).filter(|_| recognised.dumped == 0) {
+    if let Some(export) = text::export(&text).filter(|_| recognised.dumped == 0 && reading.input == Input::Auto) {
         return Err(Refusal::NoBytes { name: export.name, instead: export.instead });
     }
     let format = Format::Text {
         layout: recognised.layout.map(|layout| layout.key),
-        numbers: reading.numbers.unwrap_or(recognised.numbers),
+        numbers: reading.numbers.or(recognised.numbers),
+        style: recognised.style,
         tells: recognised.telling * 2 > recognised.with_bytes,
     };
     Ok((format, encoding))

@@ -13,7 +13,7 @@ mod rows;
 mod story;
 
 pub use crate::dialogue::traffic::{Dialog, Entry, Minutes, Role, Statistics};
-pub use crate::text::log::{LAYOUTS, Layout, Marks, Numbers, Place};
+pub use crate::text::{LAYOUTS, Layout, Marks, Numbers, Place};
 pub use filter::{Filter, Wanted, is_error};
 pub use findings::Finding;
 pub use format::{Format, Refusal};
@@ -23,13 +23,13 @@ pub use story::time_text;
 use std::collections::HashMap;
 
 use super::Options;
-use super::decode::{Report, decode};
+use super::decode::Report;
 use crate::dialogue::traffic::{Chunk, Hint, Traffic, statistics};
 use crate::dialogue::{self, Candidate, Choice};
 use crate::frame::split::{Splitter, can_split};
-use crate::frame::{PROTOCOLS, Protocol, Settings, Verdict, modbus_ascii, modbus_pdu};
+use crate::frame::{PROTOCOLS, Protocol, Settings, modbus_ascii, modbus_pdu};
 use crate::message;
-use crate::text::log::{self, Event, Form, Reader, Sender};
+use crate::text::{self, Event, Form, Reader, Sender};
 
 /// How a log is to be read, where a person says so.
 #[derive(Clone, Debug, Default)]
@@ -90,6 +90,8 @@ pub struct Log {
     traffic: Traffic,
     /// Lines without bytes: number and place.
     unread: Vec<(u32, u32)>,
+    /// Its lines hold nothing but what should be telegrams.
+    typed: bool,
     ports: Ports,
     lines: u32,
     taken: u64,
@@ -109,7 +111,7 @@ enum Way {
     Text(Box<Reader>),
     Utf16 {
         reader: Box<Reader>,
-        encoding: log::Encoding,
+        encoding: text::Encoding,
         odd: Vec<u8>,
     },
     Stream,
@@ -120,30 +122,24 @@ enum Way {
 }
 
 /// Reads a file that is in memory: a log, a capture, a stream, or plain lines of bytes, as pasted.
-///
-/// Where lines hold nothing but bytes, they are read as [`decode`] reads them, which says of each
-/// character what is wrong with it.
 pub fn decode_file(file: &[u8], reading: &Reading, options: Options) -> Result<Report, Refusal> {
-    let log = match Log::read(file, reading, options.clone()) {
+    match Log::read(file, reading, options.clone()) {
         // Nothing in it is nothing wrong.
-        Err(Refusal::Empty) => return Ok(decode("", options)),
-        log => log?,
-    };
-    if reading.marks.is_none() && reading.input != Input::Binary && log.is_plain() {
-        let report = decode(&String::from_utf8_lossy(file), options);
-        let right = report.telegrams.iter().filter(|telegram| telegram.verdict == Verdict::Right).count();
-        // Counters and remarks beside the bytes are told apart by a log's reader only.
-        let others = log.entries().iter().filter(|entry| entry.counts()).count() - log.right();
-        let better = right < log.right() || report.telegrams.len() - right > others;
-        if !better || log.right() <= FEW {
-            return Ok(report);
-        }
+        Err(Refusal::Empty) => Ok(Report::nothing("", options)),
+        Err(refusal) => Err(refusal),
+        Ok(log) => Ok(log.whole_report(&file)),
     }
-    Ok(log.whole_report(&file))
 }
 
-/// So many right telegrams, or fewer, make no log.
-const FEW: usize = 2;
+/// Reads a text that a person types or pastes, and says of each character that should be a byte and is none
+/// what is wrong with it.
+pub fn decode(text: &str, options: Options) -> Report {
+    let reading = Reading { input: Input::Text, ..Reading::default() };
+    match Log::read(text.as_bytes(), &reading, options.clone()) {
+        Ok(log) => log.typed_report(text),
+        Err(_) => Report::nothing(text, options),
+    }
+}
 
 /// What a file's beginning must hold at least, where the file has so much, for [`Log::open`].
 pub const BEGINNING: usize = 1 << 16;
@@ -165,25 +161,29 @@ impl Log {
             return Err(Refusal::TooLarge { size, most: LARGEST });
         }
         let (format, encoding) = format::tell(beginning, reading)?;
-        let text = encoding.text(beginning);
+        let beginning = encoding.text(beginning);
         let numbers = reading.numbers.or(match format {
-            Format::Text { numbers, .. } => Some(numbers),
+            Format::Text { numbers, .. } => numbers,
             _ => None,
         });
         let is_text = matches!(format, Format::Text { .. });
-        let counted = is_text && log::counted(&text, numbers);
-        let flow = if is_text && reading.marks.is_none() { log::flow(&text, numbers) } else { None };
+        let counted = is_text && text::counted(&beginning, numbers);
+        let flow = if is_text && reading.marks.is_none() { text::flow(&beginning, numbers) } else { None };
         let form = Form { numbers, counted, flow, marks: reading.marks.clone() };
         #[cfg(feature = "captures")]
-        let packets = if is_text { packets::Packets::of(&text, &form) } else { None };
+        let packets = if is_text { packets::Packets::of(&beginning, &form) } else { None };
         #[cfg(not(feature = "captures"))]
         let packets: Option<()> = None;
         let of_network = packets.is_some() || matches!(format, Format::Capture { .. });
-        let choice = choose(&format, of_network, &text, &form, &options);
+        let choice = choose(&format, of_network, &beginning, &form, &options);
         let mut traffic = Traffic::new(choice.protocol, &options.settings.frame);
         if form.flow.is_some() {
             traffic.flow();
         }
+        if options.protocol.is_some() && is_text {
+            traffic.by_hand();
+        }
+        traffic.directed(options.direction);
         let reader = || Box::new(Reader::new(form.clone()));
         let input = match format {
             Format::Text { .. } if encoding.is_utf16() => {
@@ -210,6 +210,7 @@ impl Log {
             input,
             traffic,
             unread: Vec::new(),
+            typed: is_text,
             ports: Ports::default(),
             lines: 0,
             taken: 0,
@@ -233,9 +234,12 @@ impl Log {
 
     /// Takes the next part of the file; `false` if no more can be kept.
     pub fn push(&mut self, part: &[u8]) -> bool {
-        let Self { input, traffic, unread, ports, full, taken, transcoded, .. } = self;
+        let Self { input, traffic, unread, typed, ports, full, taken, transcoded, .. } = self;
         let mut room = true;
-        let mut take = |event: Event<'_>| room &= self::take(event, traffic, unread, ports);
+        let mut take = |event: Event<'_>| {
+            *typed &= is_typed(&event);
+            room &= self::take(event, traffic, unread, ports);
+        };
         match input {
             Way::Text(reader) => reader.push(part, &mut take),
             Way::Utf16 { reader, encoding, odd } => {
@@ -282,8 +286,11 @@ impl Log {
 
     /// The file ends, or is not read any further.
     pub fn finish(&mut self) {
-        let Self { input, traffic, unread, ports, transcoded, .. } = self;
-        let mut take = |event: Event<'_>| _ = self::take(event, traffic, unread, ports);
+        let Self { input, traffic, unread, typed, ports, transcoded, .. } = self;
+        let mut take = |event: Event<'_>| {
+            *typed &= is_typed(&event);
+            self::take(event, traffic, unread, ports);
+        };
         if let Way::Utf16 { reader, encoding, odd } = input {
             // Half a character at the very end.
             let text = encoding.further(odd);
@@ -312,25 +319,12 @@ impl Log {
                 debug_assert!(end.is_ok(), "no file of packets was begun");
             }
         }
+        self.traffic.finish(self.typed);
+        self.unread.extend_from_slice(self.traffic.passed());
         self.unread.sort_unstable();
-        self.traffic.finish();
+        self.unread.dedup();
         self.statistics = statistics(&self.traffic);
         self.find_lessons();
-    }
-
-    /// Whether its lines hold hardly more than bytes.
-    fn is_plain(&self) -> bool {
-        let Format::Text { layout: None, numbers: Numbers::Hex, tells: false } = self.format else {
-            return false;
-        };
-        // Prose between telegrams would be marked, word for word.
-        let prose = self.right() > FEW && !self.unread.is_empty();
-        self.transcoded.is_none() && self.form.flow.is_none() && !prose
-    }
-
-    /// How many telegrams have a right check.
-    fn right(&self) -> usize {
-        self.entries().iter().filter(|entry| entry.verdict == Verdict::Right && entry.counts()).count()
     }
 
     /// How many directions of connections carry no telegrams.
@@ -415,6 +409,19 @@ impl Log {
     }
 }
 
+/// Whether a line is nothing but bytes, perhaps with a word who sends them, as a person types it.
+fn is_typed(event: &Event<'_>) -> bool {
+    /// So far from the beginning of its line at most.
+    const LABEL: usize = 16;
+    match event {
+        Event::Piece(piece) => {
+            let labelled = piece.facts.said && piece.time.is_none() && piece.places.first().is_none_or(|place| place.from < LABEL);
+            piece.facts.column || piece.facts.bare || labelled || (piece.facts.slips && piece.time.is_none())
+        }
+        Event::Unread { .. } => false,
+    }
+}
+
 /// Takes what was found in a text; `false` if no more telegrams can be kept.
 fn take(event: Event<'_>, traffic: &mut Traffic, unread: &mut Vec<(u32, u32)>, ports: &mut Ports) -> bool {
     let piece = match event {
@@ -431,9 +438,12 @@ fn take(event: Event<'_>, traffic: &mut Traffic, unread: &mut Vec<(u32, u32)>, p
         port: ports.number(piece.port),
         joins: piece.joins,
         both_ways: false,
+        known_port: false,
         line: piece.line,
         offset: piece.offset as u32,
-        colon: piece.colon,
+        facts: Some(piece.facts),
+        decimal: piece.decimal,
+        breaks: piece.breaks,
     })
 }
 
@@ -452,6 +462,10 @@ fn take_of_packet(found: packets::Found<'_>, traffic: &mut Traffic, unread: &mut
 #[cfg(feature = "captures")]
 fn of_segment<'a>(segment: &crate::capture::Segment<'a>) -> Chunk<'a> {
     use crate::field::Direction;
+    /// The port of Modbus TCP.
+    ///
+    /// Source: Modbus messaging on TCP/IP V1.0b, section 4.3.1.
+    const MODBUS: u16 = 502;
     let direction = if segment.from_client { Direction::Request } else { Direction::Response };
     Chunk {
         bytes: segment.bytes,
@@ -460,9 +474,10 @@ fn of_segment<'a>(segment: &crate::capture::Segment<'a>) -> Chunk<'a> {
         port: u16::try_from(segment.connection).unwrap_or(u16::MAX),
         joins: !segment.gap && !segment.datagram,
         both_ways: true,
+        known_port: segment.ports.contains(&MODBUS),
         line: segment.line,
         offset: segment.offset as u32,
-        colon: false,
+        ..Chunk::default()
     }
 }
 
@@ -562,7 +577,8 @@ fn pieces(text: &[u8], form: &Form) -> Vec<(Vec<u8>, bool)> {
             match pieces.last_mut() {
                 Some((bytes, _)) if piece.joins => bytes.extend_from_slice(piece.bytes),
                 _ if full => {}
-                _ => pieces.push((piece.bytes.to_vec(), piece.colon)),
+                _ if piece.facts.column => {}
+                _ => pieces.push((piece.bytes.to_vec(), piece.facts.colon)),
             }
         }
     };

@@ -1,7 +1,7 @@
 //! Whole packets of a network as dumps in a text: what Wireshark and tcpdump print.
 
 use crate::capture::{Capture, Fault, Segment, Shown};
-use crate::text::log::{Event, Form, Reader};
+use crate::text::{Event, Form, Reader};
 
 /// Puts the rows of each packet together, and gives what its connection carries.
 #[derive(Debug)]
@@ -31,7 +31,7 @@ impl Packets {
     pub fn of(text: &[u8], form: &Form) -> Option<Self> {
         let mut dumps: Vec<Vec<u8>> = Vec::new();
         let mut collect = |event: Event<'_>| match event {
-            Event::Piece(piece) if piece.dumped => match dumps.last_mut() {
+            Event::Piece(piece) if piece.facts.dumped => match dumps.last_mut() {
                 Some(dump) if piece.joins => dump.extend_from_slice(piece.bytes),
                 _ => dumps.push(piece.bytes.to_vec()),
             },
@@ -79,7 +79,7 @@ impl Packets {
 impl Packet {
     fn take(&mut self, event: Event<'_>, capture: &mut Capture, sink: &mut dyn FnMut(Found<'_>)) {
         match event {
-            Event::Piece(piece) if piece.dumped => {
+            Event::Piece(piece) if piece.facts.dumped => {
                 if !piece.joins {
                     self.end(capture, sink);
                     (self.time, self.line, self.offset) = (piece.time, piece.line, piece.offset);

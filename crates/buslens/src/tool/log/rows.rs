@@ -2,12 +2,11 @@
 
 use super::{Entry, Format, Log, Role, Source, Way, time_text};
 use crate::dialogue::traffic::latency;
-use crate::dialogue::{Certainty, Choice, Guess};
+use crate::dialogue::{self, Candidate, Certainty, Choice, Guess};
 use crate::field::{Direction, Span};
-use crate::frame::{Speaker, Verdict, modbus_ascii};
+use crate::frame::{Speaker, Verdict, modbus_ascii, modbus_unchecked};
 use crate::message;
-use crate::text::Line;
-use crate::text::log::{Event, Reader};
+use crate::text::{self, Event, Line, Piece, Reader, Remark};
 use crate::tool::decode::{Options, Report, Summary, Telegram};
 
 impl Log {
@@ -27,7 +26,8 @@ impl Log {
         let telegrams = all.iter().filter_map(|index| {
             let entry = self.entries().get(*index)?;
             let partner = entry.partner().and_then(place);
-            let mut telegram = Telegram { number: index + 1, ..self.telegram(entry, source) };
+            let number = partner.map(|place| all[place] + 1);
+            let mut telegram = Telegram { number: index + 1, ..self.telegram(entry, source, number) };
             match entry.direction {
                 Direction::Request => telegram.answered_by = partner,
                 Direction::Response => telegram.answers = partner,
@@ -102,6 +102,32 @@ impl Log {
         report
     }
 
+    /// The same of a text that a person types: with what is wrong in lines that should be bytes, and what lines
+    /// mean that show a display.
+    pub(super) fn typed_report(&self, text: &str) -> Report {
+        let mut report = self.whole_report(&text.as_bytes());
+        report.style = match self.format {
+            Format::Text { style, .. } if !report.telegrams.is_empty() => style,
+            _ => None,
+        };
+        report.line_count = text.lines().count();
+        let lines = self.unread().iter().map(|(number, offset)| {
+            let from = *offset as usize;
+            let line = text.get(from..).unwrap_or_default();
+            let line = line.split(['\n', '\r']).next().unwrap_or_default();
+            let span = Span::new(from, from + line.len());
+            let display = report.explain_display(line, span);
+            let remarks = match display {
+                Some(remark) => vec![remark],
+                None if text::looks_typed(line) => text::remarks(line, from, &[]),
+                None => Vec::new(),
+            };
+            Line { number: *number as usize, span, remarks, ..Line::default() }
+        });
+        report.not_understood = lines.collect();
+        report
+    }
+
     /// Writes that set up what others mean, before the first of `indices`, with their responses.
     fn lessons(&self, indices: &[usize]) -> &[usize] {
         /// Older ones were written over, or the device has forgotten them.
@@ -140,29 +166,14 @@ impl Log {
         self.find_lessons();
     }
 
-    fn telegram(&self, entry: &Entry, source: &dyn Source) -> Telegram {
+    /// A telegram as an entry; its partner has this `number`.
+    fn telegram(&self, entry: &Entry, source: &dyn Source, number: Option<usize>) -> Telegram {
         let line = self.line(entry, source);
-        let protocol = entry.protocol();
-        let (certainty, reason) = match entry.role {
-            Role::Echo => {
-                (Certainty::Certain, message!("it is the request before it, come back over the same wires"))
-            }
-            _ if entry.partner().is_some() => {
-                (Certainty::Certain, message!("request and response fit each other"))
-            }
-            _ => (
-                Certainty::Likely,
-                message!("its length, its place in the log and what the log says of it tell"),
-            ),
-        };
-        let own = protocol.is(self.choice.protocol);
-        let reason_of_protocol =
-            if own { self.choice.reason.clone() } else { message!("its own bytes prove it") };
         Telegram {
             number: 0,
             unit: entry.unit,
-            choice: Choice { protocol, reason: reason_of_protocol, others: Vec::new() },
-            guess: Guess { direction: entry.direction, certainty, reason },
+            choice: self.choice_of(entry, &line),
+            guess: self.guess(entry, number),
             verdict: entry.verdict,
             answers: None,
             answered_by: None,
@@ -171,6 +182,84 @@ impl Log {
             latency: self.latency(entry),
             comment: String::new(),
             line,
+        }
+    }
+
+    /// Its protocol, what speaks for it, and what else it could be.
+    fn choice_of(&self, entry: &Entry, line: &Line) -> Choice {
+        let protocol = entry.protocol();
+        if self.options.protocol.is_some_and(|chosen| chosen.is(protocol)) {
+            return Choice { protocol, reason: message!("set by hand"), others: Vec::new() };
+        }
+        let written_as = line.colon.then_some(&modbus_ascii::PROTOCOL);
+        let candidate = Candidate { bytes: &line.bytes, written_as };
+        let own = dialogue::protocols(&[candidate], &self.options.settings.frame).swap_remove(0);
+        let Choice { protocol: told, reason, mut others } = own;
+        if told.is(protocol) {
+            return Choice { protocol, reason, others };
+        }
+        others.retain(|(other, _)| !other.is(protocol));
+        let reason = if protocol.is(&modbus_unchecked::PROTOCOL) {
+            message!("unit, function and length fit a telegram whose check was not printed")
+        } else if protocol.is(self.choice.protocol) {
+            message!("the others are of this protocol, and nothing fits better")
+        } else {
+            message!("function code and length fit, and so does its place in the text")
+        };
+        Choice { protocol, reason, others }
+    }
+
+    /// Who speaks, and why: by the bytes, and where those leave it open, by what the text says and by the
+    /// telegram that it answers or that answers it, which has this `number`.
+    fn guess(&self, entry: &Entry, number: Option<usize>) -> Guess {
+        let direction = entry.direction;
+        let guess = |certainty, reason| Guess { direction, certainty, reason };
+        if self.options.direction == Some(direction) {
+            return guess(Certainty::Certain, message!("set by hand"));
+        }
+        if entry.role == Role::Echo {
+            let reason = message!("it is the request before it, come back over the same wires");
+            return guess(Certainty::Certain, reason);
+        }
+        let protocol = entry.protocol();
+        let bytes = self.bytes(entry);
+        let own = match protocol.speaker {
+            Speaker::Pdu(inside) => {
+                let (pdu, around) = inside(bytes);
+                let awaited = direction == Direction::Response && entry.partner().is_some();
+                dialogue::direction(pdu, around, awaited, self.options.settings.frame.dialect)
+            }
+            Speaker::Frame(told) => dialogue::told(told(bytes), message!("its frame says so")),
+            Speaker::Always(direction) => {
+                dialogue::told(Some(direction), message!("such telegrams go one way only"))
+            }
+            Speaker::Turns(leaning) => dialogue::leaning(leaning(bytes)),
+        };
+        let turns = matches!(protocol.speaker, Speaker::Turns(_));
+        if protocol.is(&modbus_unchecked::PROTOCOL) && own.certainty != Certainty::Certain && number.is_none() {
+            let reason = match direction {
+                Direction::Response => message!("its byte count says that it is the beginning of a response"),
+                Direction::Request => message!("a check is added to what is sent"),
+            };
+            return guess(Certainty::Likely, reason);
+        }
+        if own.certainty != Certainty::Open && own.direction == direction && !(turns && number.is_some()) {
+            return own;
+        }
+        match (number, direction) {
+            _ if turns && number.is_some() => guess(Certainty::Likely, message!("request and response take turns")),
+            (Some(n), Direction::Request) => guess(Certainty::Likely, message!("telegram {n} answers it", n = n)),
+            (Some(n), Direction::Response) => {
+                let asked = entry.partner().map(|partner| self.bytes(&self.entries()[partner]));
+                let reason = if asked == Some(bytes) {
+                    message!("it repeats telegram {n}, as a response of this function does", n = n)
+                } else {
+                    message!("telegram {n} waits for such a response", n = n)
+                };
+                guess(Certainty::Likely, reason)
+            }
+            (None, _) if entry.is_said() => guess(Certainty::Likely, message!("the text says who speaks")),
+            (None, _) => guess(own.certainty, own.reason),
         }
     }
 
@@ -196,54 +285,47 @@ impl Log {
             let span = Span::new(from, from + places.len());
             return Line { number, span, places, bytes, ..Line::default() };
         }
-        let places = self.places(entry, source);
+        let (places, remarks) = self.places(entry, source);
         let span = match (places.first(), places.last()) {
             (Some(first), Some(last)) => Span::new(first.from, last.to),
             _ => Span::new(entry.offset as usize, entry.offset as usize),
         };
         let colon = entry.protocol().is(&modbus_ascii::PROTOCOL);
-        Line { number, span, places, bytes, colon, ..Line::default() }
+        Line { number, span, places, bytes, colon, remarks }
     }
 
-    /// Reads the lines of a telegram again, for the places of its bytes.
-    fn places(&self, entry: &Entry, source: &dyn Source) -> Vec<Span> {
+    /// Reads the lines of a telegram again, for the places of its bytes, and for what in a line of bytes is
+    /// none.
+    fn places(&self, entry: &Entry, source: &dyn Source) -> (Vec<Span>, Vec<Remark>) {
         /// A line of a telegram has hardly more.
         const PART: usize = 4096;
         const MOST: usize = 1 << 18;
-        let wanted = usize::from(entry.skip) + usize::from(entry.length);
+        let bytes = self.bytes(entry);
         let offset = u64::from(entry.offset);
         let mut part = PART;
         loop {
             let text = match (&self.transcoded, &self.input) {
                 (Some(text), _) => (&text.as_slice()).read(offset, part),
                 (None, Way::Text(_)) => source.read(offset, part),
-                _ => return Vec::new(),
+                _ => return (Vec::new(), Vec::new()),
             };
             let whole = text.len() < part;
-            let mut places: Vec<Span> = Vec::new();
+            let mut search = Search { bytes, skip: usize::from(entry.skip), places: Vec::new(), slips: None };
             let mut reader = Reader::starting_at(self.form.clone(), offset, entry.line);
             let mut take = |event: Event<'_>| {
-                if let Event::Piece(piece) = event
-                    && places.len() < wanted
-                {
-                    let base = piece.offset as usize;
-                    let mut spans: Vec<Span> = piece.places.iter().map(|place| place.shifted(base)).collect();
-                    // Two characters of Modbus ASCII are one byte.
-                    if let [b':', ..] = piece.bytes
-                        && modbus_ascii::from_characters(piece.bytes).is_some()
-                    {
-                        let pairs = spans[1..].chunks(2).take((piece.bytes.trim_ascii_end().len() - 1) / 2);
-                        spans = pairs.map(|pair| Span::new(pair[0].from, pair[pair.len() - 1].to)).collect();
-                    }
-                    places.extend(spans);
+                if let Event::Piece(piece) = event {
+                    search.take(&piece);
                 }
             };
             reader.push(&text, &mut take);
             reader.finish(&mut take);
-            if places.len() >= wanted || whole || part >= MOST {
-                let from = usize::from(entry.skip).min(places.len());
-                let to = wanted.min(places.len());
-                return places[from..to].to_vec();
+            if search.places.len() >= bytes.len() || whole || part >= MOST {
+                let remarks = search.slips.map(|(from, places)| {
+                    let line = text.get(from - entry.offset as usize..).unwrap_or_default();
+                    let end = line.iter().position(|c| matches!(c, b'\n' | b'\r')).unwrap_or(line.len());
+                    text::remarks(&String::from_utf8_lossy(&line[..end]), from, &places)
+                });
+                return (search.places, remarks.unwrap_or_default());
             }
             part *= 4;
         }
@@ -273,4 +355,60 @@ impl Log {
     pub fn options(&self) -> &Options {
         &self.options
     }
+}
+
+/// The places of a telegram's bytes, put together from the pieces that they came in.
+struct Search<'a> {
+    bytes: &'a [u8],
+    /// How many bytes of its first piece come before it.
+    skip: usize,
+    places: Vec<Span>,
+    /// A line of it has slips: where it begins, and the places of its bytes.
+    slips: Option<(usize, Vec<Span>)>,
+}
+
+impl Search<'_> {
+    fn take(&mut self, piece: &Piece<'_>) {
+        let found = self.places.len();
+        if found >= self.bytes.len() {
+            return;
+        }
+        let base = piece.offset as usize;
+        for reading in [Some(piece.bytes), piece.decimal].into_iter().flatten() {
+            let mut spans: Vec<Span> = piece.places.iter().map(|place| place.shifted(base)).collect();
+            let mut own = reading.to_vec();
+            // Two characters are one byte.
+            if let Some(decoded) = of_characters(reading) {
+                let colon = usize::from(reading[0] == b':');
+                let pairs = spans[colon..].chunks(2).take(decoded.len());
+                spans = pairs.map(|pair| Span::new(pair[0].from, pair[pair.len() - 1].to)).collect();
+                if self.bytes[found..].starts_with(&decoded) {
+                    (own, self.skip) = (decoded, 0);
+                }
+            }
+            let skip = if found == 0 { self.skip.min(own.len()) } else { 0 };
+            let wanted = &self.bytes[found..];
+            let length = wanted.len().min(own.len() - skip);
+            if length > 0 && wanted[..length] == own[skip..skip + length] {
+                self.places.extend(&spans[skip..skip + length]);
+                if piece.facts.slips {
+                    self.slips = Some((base, piece.places.iter().map(|place| place.shifted(base)).collect()));
+                }
+                return;
+            }
+        }
+    }
+}
+
+/// The bytes that characters stand for: of a frame of Modbus ASCII, or hex text.
+fn of_characters(characters: &[u8]) -> Option<Vec<u8>> {
+    if characters.first() == Some(&b':') {
+        return modbus_ascii::from_characters(characters);
+    }
+    let digit = |c: &u8| char::from(*c).to_digit(16).map(|digit| digit as u8);
+    let pairs = characters.trim_ascii().chunks(2).map(|pair| match pair {
+        [high, low] => Some(digit(high)? << 4 | digit(low)?),
+        _ => None,
+    });
+    pairs.collect::<Option<Vec<u8>>>().filter(|bytes| bytes.len() >= 4)
 }

@@ -110,7 +110,8 @@ fn seconds(line: &[u8], at: usize) -> Option<Found> {
     let (whole, to) = digits(line, at)?;
     let (micros, end) = (line.get(to) == Some(&b'.')).then(|| fraction(line, to + 1)).flatten()?;
     let plain = end - to > 3 && !matches!(line.get(end), Some(b'.' | b':' | b'-'));
-    (plain && whole < 100_000_000_000).then_some(Found { micros: whole as i64 * SECOND + micros, to: end })
+    let found = || Found { micros: whole as i64 * SECOND + micros, to: end };
+    (plain && whole < 100_000_000_000).then(found)
 }
 
 /// A number with a fraction that a blank or another separator ends, of units of so many microseconds.
@@ -123,7 +124,7 @@ pub fn number(line: &[u8], at: usize, unit: i64) -> Option<Found> {
         return None;
     }
     let millionths = millionths(&line[to + 1..end]);
-    let micros = i64::try_from(whole).ok()?.checked_mul(unit)?.checked_add(millionths * unit / SECOND)?;
+    let micros = i64::try_from(whole).ok()?.checked_mul(unit)?.checked_add(millionths.checked_mul(unit)? / SECOND)?;
     Some(Found { micros, to: end })
 }
 

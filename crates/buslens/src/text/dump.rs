@@ -31,9 +31,29 @@ pub enum Words {
 }
 
 impl Dump {
-    /// The row that a line is, if it is one.
+    /// The row that a line is, if it is one. Before its offset there may be a time, an arrow, a bar, the
+    /// sign of a comment.
     pub fn row(&self, line: &[u8]) -> Option<Row> {
-        let start = line.iter().take_while(|c| matches!(c, b' ' | b'\t')).count();
+        /// Offsets stand near the beginning.
+        const FAR: usize = 80;
+        let mark = |c: &u8| matches!(c, b' ' | b'\t' | b'|' | b'>' | b'/' | b'#' | b'*' | b';');
+        let first = line.iter().take_while(|c| mark(c)).count();
+        if let Some(row) = self.row_at(line, first, true) {
+            return Some(row);
+        }
+        let mut at = first;
+        while at < line.len().min(FAR) {
+            at += line[at..].iter().take_while(|c| !c.is_ascii_whitespace()).count();
+            at += line[at..].iter().take_while(|c| mark(c)).count();
+            if let Some(row) = line.get(at).and_then(|_| self.row_at(line, at, false)) {
+                return Some(row);
+            }
+        }
+        None
+    }
+
+    /// The same with the offset at `start`; where other things are before it, it must be marked and fit.
+    fn row_at(&self, line: &[u8], start: usize, alone: bool) -> Option<Row> {
         // tcpdump marks its offsets.
         let start = start + if line[start..].starts_with(b"0x") { 2 } else { 0 };
         let count = line[start..].iter().take_while(|c| c.is_ascii_hexdigit()).count();
@@ -43,11 +63,12 @@ impl Dump {
         let blanks = |at: usize| {
             line.get(at..).unwrap_or_default().iter().take_while(|c| matches!(c, b' ' | b'\t')).count()
         };
-        let colon = line.get(end) == Some(&b':');
-        let from = end + usize::from(colon);
+        let bar = line.get(end + blanks(end)) == Some(&b'|');
+        let colon = line.get(end) == Some(&b':') || bar;
+        let from = end + if bar { blanks(end) } else { 0 } + usize::from(colon);
         // od parts its offset, seven digits, with one blank only.
         let od = count == 7 && !colon && blanks(from) == 1;
-        let parted = (colon && blanks(from) > 0) || blanks(from) > 1 || od;
+        let parted = (colon && blanks(from) > 0) || (alone && (blanks(from) > 1 || od));
         if !parted || !line.get(from + blanks(from)).is_some_and(u8::is_ascii_hexdigit) {
             return None;
         }
@@ -55,7 +76,12 @@ impl Dump {
         let values = [16, 10, 8].map(|radix| usize::from_str_radix(digits, radix).ok());
         let offset = values[0]?;
         let first = &line[from + blanks(from)..];
-        let first = &first[..first.iter().take_while(|c| c.is_ascii_alphanumeric()).count()];
+        let length = first.iter().take_while(|c| c.is_ascii_alphanumeric()).count();
+        // Bytes are parted by blanks: what goes on with a dot or a colon is a date or a time.
+        if !first.get(length).is_none_or(|c| c.is_ascii_whitespace() || matches!(c, b'-' | b'|')) {
+            return None;
+        }
+        let first = &first[..length];
         let octal = od && matches!(first.len(), 3 | 6) && first.iter().all(|c| (b'0'..=b'7').contains(c));
         let words = match od {
             _ if octal => Words::Octal,
@@ -68,7 +94,7 @@ impl Dump {
             Some(next) if values.contains(&Some(next)) => row(next, true),
             // Rows are missing.
             Some(next) if offset > next && offset.is_multiple_of(8) => row(offset, true),
-            None if offset.is_multiple_of(8) => row(offset, false),
+            None if offset.is_multiple_of(8) && (alone || colon) => row(offset, false),
             _ => None,
         }
     }

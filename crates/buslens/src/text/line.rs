@@ -1,7 +1,11 @@
-//! One line of a log: its time, who speaks in it, and its runs of bytes.
+//! One line: its time, who speaks in it, and its runs of bytes.
+//!
+//! A run is numbers that follow each other with hardly more than marks between them. Where these marks
+//! change within it (`7B 04'00 C8`, `8: 01 03`), it has a break: whether it is one telegram or a part of it
+//! is, the evidence decides.
 
 use super::time;
-use super::words::{self, Sender, Weight};
+use super::words::{self, About, Sender, Weight};
 use crate::field::{Direction, Span};
 
 /// How bytes without a mark of their own are written.
@@ -11,7 +15,37 @@ pub enum Numbers {
     Decimal,
 }
 
-/// Bytes that follow each other with the same separator.
+/// How bytes are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Style {
+    /// `01 03`, with any separator.
+    Separated,
+    /// `0103`.
+    Contiguous,
+    /// `0x01`, `$01`.
+    Prefixed,
+    /// `01h`.
+    Suffixed,
+    /// `\x01`.
+    Escaped,
+}
+
+impl Style {
+    pub const ALL: [Self; 5] =
+        [Self::Separated, Self::Contiguous, Self::Prefixed, Self::Suffixed, Self::Escaped];
+
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Separated => "separate hex bytes",
+            Self::Contiguous => "hex digits without spaces",
+            Self::Prefixed => "hex numbers with a prefix",
+            Self::Suffixed => "hex bytes with an h",
+            Self::Escaped => "an escaped string",
+        }
+    }
+}
+
+/// Bytes that follow each other with only marks between them.
 #[derive(Clone, Copy, Debug)]
 pub struct Run {
     /// Its bytes in [`Scan::hex`], [`Scan::decimal`] and [`Scan::places`].
@@ -25,14 +59,26 @@ pub struct Run {
     pub decimal: bool,
     /// Written as `0x01`, `\x01` or `01h`: certainly bytes.
     pub marked: bool,
+    pub style: Style,
     /// One run of digits behind a colon, as Modbus ASCII has it.
     pub colon: bool,
     /// Who speaks, by what stands before it.
     pub sender: Option<(Sender, Weight)>,
     /// No other word is between the one that says who speaks and the run.
     pub said: bool,
+    /// The word before it, as [`word_of`] makes it a number.
+    pub word: u32,
+    /// Its breaks in [`Scan::breaks`].
+    pub breaks: Span,
     tokens: usize,
-    /// Where the second token's bytes begin.
+    /// Where the last token's bytes begin.
+    last: usize,
+    /// How many tokens there are since the last break.
+    since: usize,
+    /// It has a byte of one digit without a zero before it, and one with a zero.
+    single: bool,
+    padded: bool,
+    /// Where the second token's bytes begin, counted from the last break.
     second: usize,
     /// The same in the line.
     second_at: usize,
@@ -51,6 +97,11 @@ impl Run {
     pub fn tokens(&self) -> usize {
         self.tokens
     }
+
+    /// What stands between its bytes, `otherwise` where it has only one number so far.
+    fn separator_or(&self, otherwise: u8) -> u8 {
+        if self.since < 2 { otherwise } else { self.separator }
+    }
 }
 
 /// What was found in a line. It is used for line after line, so that none allocates.
@@ -61,9 +112,18 @@ pub struct Scan {
     /// Where each byte stands in the line.
     pub places: Vec<Span>,
     pub runs: Vec<Run>,
+    /// Bytes behind which what stands between them changes.
+    pub breaks: Vec<usize>,
     pub time: Option<i64>,
     /// Words that are neither bytes nor time.
     pub words: usize,
+    /// Words that telegrams have near them, and words for what is left over.
+    pub of_telegrams: bool,
+    pub of_leftovers: bool,
+    /// Behind the bytes they stand as characters.
+    pub column: bool,
+    /// Characters within runs that are no hex, as slips of typing are.
+    pub slips: usize,
     /// Who speaks, by words anywhere in the line.
     pub sender: Option<(Sender, Weight)>,
     /// What tells several lines or connections apart: `COM8`, `ttyUSB0`, or the addresses of both ends,
@@ -78,6 +138,12 @@ pub struct Scan {
     strong: Option<Sender>,
     weak: Option<Sender>,
     words_since: usize,
+    /// The last word, see [`word_of`].
+    last_word: u32,
+    /// No quote of this kind comes behind this place any more: `'`, `"`.
+    unclosed: [bool; 2],
+    /// What comes first in the line was read already: here are bytes.
+    in_row: bool,
     /// Decimal numbers are not asked for.
     hex_only: bool,
     /// Any number with a fraction is a time in units of so many microseconds.
@@ -87,12 +153,27 @@ pub struct Scan {
 /// What a token's digits are.
 enum Token {
     /// Bytes were added: all can be hex, all can be decimal, they are marked as bytes.
-    Bytes {
-        hex: bool,
-        decimal: bool,
-        marked: bool,
-    },
+    Bytes(Kind),
     Word,
+}
+
+/// What bytes of a token are.
+#[derive(Clone, Copy, Debug)]
+struct Kind {
+    /// They can be hex.
+    hex: bool,
+    /// They can be decimal.
+    decimal: bool,
+    marked: bool,
+    style: Style,
+}
+
+/// Hex digits without a mark.
+const PLAIN: Kind = Kind { hex: true, decimal: false, marked: false, style: Style::Separated };
+
+/// Bytes that are certainly hex.
+const fn marked(style: Style) -> Kind {
+    Kind { hex: true, decimal: false, marked: true, style }
 }
 
 impl Scan {
@@ -105,6 +186,7 @@ impl Scan {
     pub fn read(&mut self, line: &[u8], from: usize, numbers: Option<Numbers>) {
         self.clear();
         self.hex_only = numbers == Some(Numbers::Hex);
+        self.in_row = from > 0;
         let mut at = from;
         while at < line.len() {
             at = self.same_again(line, at, numbers);
@@ -112,7 +194,7 @@ impl Scan {
             at = match c {
                 b'\\' => self.escape(line, at),
                 b'"' | b'\'' => self.quoted(line, at),
-                b'<' | b'>' | b'-' | b'=' | 0xE2 => match words::arrow(line, at) {
+                b'<' | b'>' | b'-' | b'=' => match words::arrow(line, at) {
                     Some((sender, to)) => {
                         self.close();
                         self.say(self.party(sender).unwrap_or(sender), Weight::Strong);
@@ -120,13 +202,18 @@ impl Scan {
                         to
                     }
                     None if c == b'-' && self.is_negative(line, at) => self.negative(line, at),
-                    None if c == 0xE2 => self.word(line, at, numbers),
                     None => at + 1,
                 },
+                b'&' if matches!(line.get(at + 1), Some(b'H' | b'h')) => self.of_basic(line, at),
+                ESCAPE => at + escape_sequence(&line[at..]).max(1),
                 _ if is_word(c) => self.word(line, at, numbers),
+                0x80.. => self.sign(line, at),
                 b' ' | b'\t' | b'|' => {
                     match self.open.as_ref().is_some_and(|run| self.is_column(line, run)) {
-                        true => break,
+                        true => {
+                            self.column = true;
+                            break;
+                        }
                         false => at + line[at..].iter().take_while(|other| **other == c).count(),
                     }
                 }
@@ -134,6 +221,35 @@ impl Scan {
             };
         }
         self.close();
+    }
+
+    /// A sign or letter of another script than ours: it parts words and bytes.
+    fn sign(&mut self, line: &[u8], at: usize) -> usize {
+        const WIDE: usize = 3;
+        let blank = blank_character(&line[at..]);
+        if blank > 0 {
+            return at + blank;
+        }
+        let digit = |at: usize| wide(line.get(at..)?).filter(u8::is_ascii_hexdigit);
+        if let (Some(high), Some(low)) = (digit(at), digit(at + WIDE)) {
+            let (first, to) = (self.hex.len(), at + 2 * WIDE);
+            self.push(hex_value(&[high, low]), 0, at, to);
+            self.join(line, at, to, first, PLAIN);
+            return to;
+        }
+        self.close();
+        match words::sign(line, at) {
+            Some((About::Sender(sender, weight), to)) => {
+                self.say(sender, weight);
+                // ← and → point as arrows do.
+                if line[at] == 0xE2 {
+                    self.arrow = Some(sender == Sender::Other);
+                }
+                to
+            }
+            Some((_, to)) => to,
+            None => at + 1 + line[at + 1..].iter().take(3).take_while(|c| (0x80..0xC0).contains(*c)).count(),
+        }
     }
 
     fn clear(&mut self) {
@@ -145,6 +261,9 @@ impl Scan {
         (self.time, self.sender, self.open) = (None, None, None);
         (self.ends, self.arrow) = ([None; 2], None);
         (self.strong, self.weak, self.words, self.words_since) = (None, None, 0, 0);
+        (self.of_telegrams, self.of_leftovers, self.slips, self.column) = (false, false, 0, false);
+        (self.last_word, self.unclosed) = (0, [false; 2]);
+        self.breaks.clear();
     }
 
     /// Reads a row of octal numbers: bytes of three digits, and words of six with the low byte first.
@@ -167,7 +286,13 @@ impl Scan {
                 _ => return self.close(),
             }
             if count > 0 {
-                self.join(line, at, at + count, first, (true, false, false));
+                self.join(
+                    line,
+                    at,
+                    at + count,
+                    first,
+                    PLAIN,
+                );
             }
             at += count.max(1);
         }
@@ -181,7 +306,7 @@ impl Scan {
         let Some(run) = &mut self.open else { return at };
         let width = run.gap;
         let known =
-            run.tokens >= 2 && run.hex && !run.marked && run.span.to == at && (1..=2).contains(&width);
+            run.since >= 2 && run.hex && !run.marked && !run.single && run.span.to == at && (1..=2).contains(&width);
         if !known || numbers == Some(Numbers::Decimal) {
             return at;
         }
@@ -201,10 +326,15 @@ impl Scan {
             }
             self.places.push(place);
             run.decimal &= (high < 10) & (low < 10);
+            run.padded |= high == 0;
             run.tokens += 1;
+            run.since += 1;
             at = place.to;
         }
-        (run.end, run.span.to, run.colon) = (self.hex.len(), at, false);
+        if at > run.span.to {
+            (run.last, run.end) = (self.hex.len() - 1, self.hex.len());
+            (run.span.to, run.colon) = (at, false);
+        }
         at
     }
 
@@ -234,6 +364,34 @@ impl Scan {
         &(if decimal { &self.decimal } else { &self.hex })[run.first..run.end]
     }
 
+    /// The bytes of `run` read as decimal numbers, if they can be.
+    pub fn decimal_bytes(&self, run: &Run) -> Option<&[u8]> {
+        // Who writes 01 means hex, unless other numbers of the list have a mark.
+        let meant = !run.hex || !run.padded || run.marked;
+        (run.decimal && meant && !self.hex_only).then(|| &self.decimal[run.first..run.end])
+    }
+
+    /// Whether another number of the line says how many bytes `run` has.
+    pub fn is_counted(&self, line: &[u8], run: &Run) -> bool {
+        let number = |other: &Run| other.tokens == 1 && decimal(other.span.of(line)) == Some(run.len());
+        run.len() > 1 && self.runs.iter().any(|other| other.first != run.first && number(other))
+    }
+
+    /// The last number of the line, in decimal; 0 if there is none.
+    pub fn last_number(&self, line: &[u8]) -> usize {
+        let last = self.runs.last().and_then(|run| {
+            let digits = run.span.of(line);
+            let from = digits.iter().rposition(|c| !is_digit(*c)).map_or(0, |at| at + 1);
+            decimal(&digits[from..])
+        });
+        last.unwrap_or_default()
+    }
+
+    /// Whether nothing but marks stands behind `run`.
+    pub fn tail_is_plain(&self, line: &[u8], run: &Run) -> bool {
+        !line[run.span.to..].iter().any(u8::is_ascii_alphanumeric)
+    }
+
     fn word(&mut self, line: &[u8], at: usize, numbers: Option<Numbers>) -> usize {
         if is_digit(line[at]) {
             // Bytes with dots or colons can go on like an address or a time.
@@ -259,25 +417,104 @@ impl Scan {
         if line[at..].starts_with(b"16#") {
             return self.based(line, at);
         }
-        let to = at + line[at..].iter().take_while(|c| is_word(**c)).count();
+        let to = word_end(line, at);
         let first = self.hex.len();
+        // The letter before a string says what kind of string it is: b"…".
+        if to - at == 1 && line[at].is_ascii_alphabetic() && matches!(line.get(to), Some(b'"' | b'\'')) {
+            self.close();
+            return to;
+        }
         match self.token(line, at, to, numbers) {
-            Token::Bytes { hex, decimal, marked } => self.join(line, at, to, first, (hex, decimal, marked)),
+            Token::Bytes(kind) => {
+                self.join(line, at, to, first, kind);
+                to
+            }
             Token::Word => {
                 self.hex.truncate(first);
                 self.decimal.truncate(first);
                 self.places.truncate(first);
+                if let Some(to) = self.slip(line, at, to) {
+                    return to;
+                }
                 self.close();
+                self.last_word = word_of(&line[at..to]);
                 match words::word(&line[at..to]) {
-                    Some((sender, weight)) => self.say(sender, weight),
+                    Some(About::Sender(sender, weight)) => self.say(sender, weight),
+                    Some(About::Telegrams) => {
+                        self.of_telegrams = true;
+                        self.stranger();
+                    }
+                    Some(About::Leftovers) => {
+                        self.of_leftovers = true;
+                        self.stranger();
+                    }
                     None => self.stranger(),
                 }
                 if is_port(&line[at..to]) {
                     self.port.clear();
                     self.port.extend_from_slice(&line[at..to]);
                 }
+                to
             }
         }
+    }
+
+    /// A word within bytes that is nearly one: a slip of typing, or bytes into whose line another program
+    /// wrote (`00MQTT is up`). Returns where it ends.
+    fn slip(&mut self, line: &[u8], at: usize, to: usize) -> Option<usize> {
+        let text = &line[at..to];
+        let hex = text.iter().filter(|c| c.is_ascii_hexdigit()).count();
+        let blank = self.open.as_ref().is_none_or(|run| separator(&line[run.span.to..at]) == Some(b' '));
+        let typing = hex == text.len() && hex > 2 && self.words == 0 && self.time.is_none() && blank;
+        // Of a long number of which little is wrong, the good pairs are read.
+        let nearly = text.len() >= 6 && (text.len() - hex) * 4 < text.len() && (1..=2).contains(&(text.len() - hex)) && self.words == 0;
+        if (typing || nearly) && is_digit(text[0]) && !is_bits(text) {
+            let first = self.hex.len();
+            for pair in (at..to).step_by(2) {
+                let end = (pair + 2).min(to);
+                if end - pair == 2 && line[pair..end].iter().all(u8::is_ascii_hexdigit) {
+                    self.push(hex_value(&line[pair..end]), 0, pair, end);
+                }
+            }
+            self.slips += 1;
+            self.join(line, at, to, first, Kind { style: Style::Contiguous, ..PLAIN });
+            return Some(to);
+        }
+        let run = self.open.as_mut().filter(|run| run.hex && !run.marked && run.tokens > 0)?;
+        let separated = blank && run.style == Style::Separated;
+        let typed = match text {
+            [_] => !is_digit(text[0]) && !matches!(text[0], b'x' | b'X'),
+            [a, b] => hex == 1 && (is_digit(*a) || matches!(a, b'O' | b'o' | b'l' | b'I') || is_digit(*b)),
+            _ => false,
+        };
+        if separated && typed && run.tokens > 1 {
+            run.span.to = to;
+            run.since = 0;
+            self.slips += 1;
+            return Some(to);
+        }
+        let [a, b, behind, ..] = text else { return None };
+        let glued = a.is_ascii_hexdigit() && b.is_ascii_hexdigit() && behind.is_ascii_uppercase() && !behind.is_ascii_hexdigit();
+        if separated && glued && run.tokens > 2 && run.padded && (is_digit(*a) || is_digit(*b)) {
+            let first = self.hex.len();
+            self.push(hex_value(&text[..2]), 0, at, at + 2);
+            self.join(line, at, at + 2, first, PLAIN);
+            self.close();
+            return Some(at + 2);
+        }
+        None
+    }
+
+    /// `&H01`, as Basic has it.
+    fn of_basic(&mut self, line: &[u8], at: usize) -> usize {
+        let from = at + 2;
+        let to = from + line[from..].iter().take_while(|c| c.is_ascii_hexdigit()).count();
+        if !(1..=2).contains(&(to - from)) {
+            return at + 1;
+        }
+        let first = self.hex.len();
+        self.push(hex_value(&line[from..to]), 0, at, to);
+        self.join(line, at, to, first, marked(Style::Prefixed));
         to
     }
 
@@ -294,6 +531,12 @@ impl Scan {
         let count = text.len();
         let digits = text.iter().all(|c| is_digit(*c));
         if digits || text.iter().all(u8::is_ascii_hexdigit) {
+            let letters = count > 2 && !text.iter().any(|c| is_digit(*c));
+            let groups = || self.open.as_ref().is_some_and(|run| run.style == Style::Contiguous);
+            // Words such as "faced" are no bytes, and a row of bits is none either.
+            if (letters && !self.in_row && !(count == 4 && groups())) || (is_bits(text) && !self.in_row) {
+                return Token::Word;
+            }
             let decimal = digits && count <= 3 && numbers != Some(Numbers::Hex);
             let value =
                 if decimal { text.iter().fold(0, |sum, c| sum * 10 + u32::from(c - b'0')) } else { 256 };
@@ -303,24 +546,32 @@ impl Scan {
                 (false, false) => Token::Word,
                 (false, true) => {
                     self.push(0, value as u8, at, to);
-                    Token::Bytes { hex: false, decimal: true, marked: false }
+                    Token::Bytes(Kind { hex: false, decimal: true, marked: false, style: Style::Separated })
                 }
                 (true, decimal) => {
                     for pair in (at..to).step_by(2) {
                         let end = (pair + 2).min(to);
                         self.push(hex_value(&line[pair..end]), value as u8, pair, end);
                     }
-                    Token::Bytes { hex: true, decimal: decimal && count <= 2, marked: false }
+                    let style = if count > 2 { Style::Contiguous } else { Style::Separated };
+                    Token::Bytes(Kind { hex: true, decimal: decimal && count <= 2, marked: false, style })
                 }
             };
         }
-        let suffixed =
-            matches!(text[count - 1], b'h' | b'H') && text[..count - 1].iter().all(u8::is_ascii_hexdigit);
+        let digits = &text[..count - 1];
+        let suffixed = matches!(text[count - 1], b'h' | b'H') && digits.iter().all(u8::is_ascii_hexdigit)
+            // "ach" is a word.
+            && (digits.iter().any(|c| is_digit(*c)) || digits.iter().all(u8::is_ascii_uppercase));
         match (suffixed, text) {
             (true, [_, _] | [_, _, _] | [b'0', _, _, _]) => {
                 let from = if count == 4 { at + 1 } else { at };
                 self.push(hex_value(&line[from..to - 1]), 0, at, to);
-                Token::Bytes { hex: true, decimal: false, marked: true }
+                Token::Bytes(marked(Style::Suffixed))
+            }
+            (true, [_, _, _, _, _]) => {
+                self.push(hex_value(&text[..2]), 0, at, at + 2);
+                self.push(hex_value(&text[2..4]), 0, at + 2, to);
+                Token::Bytes(marked(Style::Suffixed))
             }
             _ => Token::Word,
         }
@@ -333,7 +584,7 @@ impl Scan {
             let mut count = digits.iter().take_while(|c| c.is_ascii_hexdigit()).count();
             // The zero before the next x is its own.
             if matches!(digits.get(count), Some(b'x' | b'X')) {
-                count -= 1;
+                count = count.saturating_sub(1);
             }
             if count == 0 || (count > 2 && count % 2 == 1) {
                 return Token::Word;
@@ -341,13 +592,14 @@ impl Scan {
             for pair in (0..count).step_by(2) {
                 let place = if pair == 0 { from } else { from + 2 + pair };
                 let end = from + 2 + (pair + 2).min(count);
-                self.push(hex_value(&line[from + 2 + pair..end]), 0, place, end);
+                let value = hex_value(&line[from + 2 + pair..end]);
+                self.push(value, value, place, end);
             }
             from += 2 + count;
         }
         match line[from..to].first() {
             None | Some(b'u' | b'U' | b'l' | b'L' | b'i') if to - from <= 3 => {
-                Token::Bytes { hex: true, decimal: false, marked: true }
+                Token::Bytes(marked(Style::Prefixed))
             }
             _ => Token::Word,
         }
@@ -356,12 +608,12 @@ impl Scan {
     /// `16#01`, as programs for controllers have it.
     fn based(&mut self, line: &[u8], at: usize) -> usize {
         let from = at + 3;
-        let to = from + line[from..].iter().take_while(|c| is_word(**c)).count();
+        let to = word_end(line, from);
         let text = &line[from..to];
         if matches!(text.len(), 1 | 2) && text.iter().all(u8::is_ascii_hexdigit) {
             let first = self.hex.len();
             self.push(hex_value(text), 0, at, to);
-            self.join(line, at, to, first, (true, false, true));
+            self.join(line, at, to, first, marked(Style::Prefixed));
         } else {
             self.stranger();
         }
@@ -377,46 +629,69 @@ impl Scan {
     }
 
     /// Takes the bytes from `first` on into the open run, or begins a new one.
-    fn join(
-        &mut self,
-        line: &[u8],
-        at: usize,
-        to: usize,
-        first: usize,
-        (hex, decimal, marked): (bool, bool, bool),
-    ) {
+    fn join(&mut self, line: &[u8], at: usize, to: usize, first: usize, kind: Kind) {
+        /// A run with more breaks is none.
+        const BREAKS: usize = 8;
+        /// A number of so many bytes can be a telegram by itself.
+        const LONG: usize = 4;
+        let short = kind.style == Style::Separated && to - at <= 2;
+        let single = short && to - at == 1;
+        let padded = short && to - at == 2 && line[at] == b'0';
         if let Some(run) = &mut self.open {
             let gap = &line[run.span.to..at];
-            let separator = separator(gap);
-            let fits = (run.hex && hex) || (run.decimal && decimal);
-            let same = run.tokens < 2
-                || Some(run.separator) == separator
-                || (run.tokens == 8 && run.separator == b' ' && gap == b"-");
-            if let Some(separator) = separator.filter(|_| fits && run.marked == marked) {
-                if run.tokens == 1 {
-                    (run.separator, run.gap, run.second, run.second_at) = (separator, gap.len(), first, at);
+            let between = separator(gap);
+            let both = (run.hex && kind.hex) || (run.decimal && kind.decimal);
+            // In a list, decimal numbers can stand beside hex ones with a mark.
+            let list = between == Some(b',') && run.separator_or(b',') == b',';
+            // Long numbers in a list are a telegram each; in the rows of a dump they are words.
+            let long = first - run.last >= LONG || self.hex.len() - first >= LONG;
+            let fits = !(long && between != Some(b' ')) && ((both && run.marked == kind.marked) || (list && (both || run.marked || kind.marked)));
+            // `a 01 03`, `01 03 0`: who writes zeros before one digit writes them before each.
+            let apart = between == Some(b' ') && !kind.marked && run.tokens > 0;
+            let odd = apart && ((padded && run.single && run.tokens == 1) || (single && run.padded));
+            if let Some(mark) = between.filter(|_| fits && !odd) {
+                if run.since == 0 {
+                    (run.separator, run.gap) = (0, 0);
+                } else if run.since == 1 {
+                    (run.separator, run.gap, run.second, run.second_at) = (mark, gap.len(), first, at);
+                } else if mark != run.separator && !(run.tokens == 8 && run.separator == b' ' && gap == b"-") {
+                    // `8: 01 03 …`: what stands between them changes behind the first one already.
+                    let restart = run.since == 2;
+                    let place = if restart { run.second } else { first };
+                    if run.breaks.len() >= BREAKS {
+                        self.close();
+                        return self.begin(line, at, to, first, kind, (single, padded));
+                    }
+                    self.breaks.push(place);
+                    run.breaks.to = self.breaks.len();
+                    run.since = 0;
+                    if restart {
+                        run.since = 1;
+                        (run.separator, run.gap, run.second, run.second_at) = (mark, gap.len(), first, at);
+                    }
                 }
-                // `8: 01 03 …`: the first one is not of the run.
-                let restart = !same && run.tokens == 2 && Some(run.separator) != Some(separator);
-                if restart {
-                    run.first = run.second;
-                    run.span.from = self.places[run.first].from;
-                    (run.separator, run.gap, run.second, run.second_at) = (separator, gap.len(), first, at);
-                    run.tokens = 1;
-                    run.colon = false;
+                run.last = first;
+                run.end = self.hex.len();
+                run.span.to = to;
+                run.tokens += 1;
+                run.since += 1;
+                run.decimal = (run.decimal || run.marked) && (kind.decimal || kind.marked);
+                run.hex &= kind.hex;
+                run.marked |= kind.marked;
+                run.single |= single;
+                run.padded |= padded;
+                if kind.style == Style::Contiguous {
+                    run.style = Style::Contiguous;
                 }
-                if same || restart {
-                    run.end = self.hex.len();
-                    run.span.to = to;
-                    run.tokens += 1;
-                    run.hex &= hex;
-                    run.decimal &= decimal;
-                    run.colon = false;
-                    return;
-                }
+                run.colon = false;
+                return;
             }
         }
         self.close();
+        self.begin(line, at, to, first, kind, (single, padded));
+    }
+
+    fn begin(&mut self, line: &[u8], at: usize, to: usize, first: usize, kind: Kind, (single, padded): (bool, bool)) {
         let before = |back: usize| at.checked_sub(back).map(|place| line[place]);
         let colon = before(1) == Some(b':') && !before(2).is_some_and(|c| c.is_ascii_alphanumeric());
         let sender = self.strong.map(|sender| (sender, Weight::Strong));
@@ -424,13 +699,20 @@ impl Scan {
             first,
             end: self.hex.len(),
             span: Span::new(at, to),
-            hex,
-            decimal,
-            marked,
+            hex: kind.hex,
+            decimal: kind.decimal,
+            marked: kind.marked,
+            style: kind.style,
             colon: colon && to - at >= 6,
             sender: sender.or(self.weak.map(|sender| (sender, Weight::Weak))),
             said: self.words_since == 0 && (self.strong.is_some() || self.weak.is_some()),
+            word: self.last_word,
+            breaks: Span::new(self.breaks.len(), self.breaks.len()),
             tokens: 1,
+            last: first,
+            since: 1,
+            single,
+            padded,
             second: first,
             second_at: at,
             separator: 0,
@@ -480,7 +762,8 @@ impl Scan {
         let Some((value, to)) = digits(line, at + 1) else { return at + 1 };
         let first = self.hex.len();
         self.push(0, (value as u8).wrapping_neg(), at, to);
-        self.join(line, at, to, first, (false, true, false));
+        let kind = Kind { hex: false, decimal: true, marked: false, style: Style::Separated };
+        self.join(line, at, to, first, kind);
         to
     }
 
@@ -534,30 +817,47 @@ impl Scan {
         self.words_since += 1;
     }
 
-    /// `\x01` outside of quotes.
+    /// `\x01` outside of quotes. Letters and digits right behind one are characters, as in the `\x845` that
+    /// Python prints for 84 35.
     fn escape(&mut self, line: &[u8], at: usize) -> usize {
-        let digits = line.get(at + 2..at + 4).filter(|digits| digits.iter().all(u8::is_ascii_hexdigit));
-        match (line.get(at + 1), digits) {
-            (Some(b'x' | b'X'), Some(digits)) => {
-                let first = self.hex.len();
-                self.push(hex_value(digits), 0, at, at + 4);
-                self.join(line, at, at + 4, first, (true, false, true));
-                at + 4
+        let hex = |at: usize| match line.get(at..at + 4) {
+            Some([b'\\', b'x' | b'X', digits @ ..]) if digits.iter().all(u8::is_ascii_hexdigit) => {
+                Some(hex_value(digits))
             }
-            _ => at + 1,
+            _ => None,
+        };
+        let Some(byte) = hex(at) else { return at + 1 };
+        let first = self.hex.len();
+        self.push(byte, 0, at, at + 4);
+        let mut to = at + 4;
+        while let Some(c) = line.get(to).copied().filter(u8::is_ascii_alphanumeric) {
+            self.push(c, 0, to, to + 1);
+            to += 1;
         }
+        self.join(line, at, to, first, marked(Style::Escaped));
+        to
     }
 
     /// A string with escapes in it is bytes, each character one: `b'\x01\x03E'`.
     fn quoted(&mut self, line: &[u8], at: usize) -> usize {
         let quote = line[at];
-        let mut to = at + 1;
-        let mut escaped = false;
-        while to < line.len() && line[to] != quote {
-            escaped |= line[to] == b'\\' && matches!(line.get(to + 1), Some(b'x' | b'X' | b'0'..=b'7'));
-            to += if line[to] == b'\\' { 2 } else { 1 };
+        let unclosed = &mut self.unclosed[usize::from(quote == b'"')];
+        if *unclosed {
+            return at + 1;
         }
-        if !escaped || to >= line.len() {
+        let mut to = at + 1;
+        let (mut escaped, mut path) = (false, false);
+        while to < line.len() && line[to] != quote {
+            if line[to] == b'\\' {
+                let next = line.get(to + 1).copied().unwrap_or_default();
+                escaped |= matches!(next, b'x' | b'X' | b'0'..=b'7' | b't' | b'n' | b'r');
+                path |= !matches!(next, b'x' | b'X' | b'0'..=b'9' | b't' | b'n' | b'r' | b'a' | b'b' | b'v' | b'f' | b'e' | b'u' | b'\\' | b'"' | b'\'');
+                to += 1;
+            }
+            to += 1;
+        }
+        *unclosed = to >= line.len();
+        if !escaped || path || to >= line.len() {
             return at + 1;
         }
         self.close();
@@ -568,7 +868,7 @@ impl Scan {
             self.push(byte, 0, from, from + length);
             from += length;
         }
-        self.join(line, at, to + 1, first, (true, false, true));
+        self.join(line, at, to + 1, first, marked(Style::Escaped));
         self.close();
         to + 1
     }
@@ -586,13 +886,19 @@ impl Scan {
         let blank = text.iter().take_while(|c| matches!(c, b' ' | b'\t' | b'|')).count();
         // A column can begin with blanks that stand for bytes.
         let shows = |from: usize| {
-            let column = &text[from..];
-            let same = |(c, byte): (&u8, &u8)| c == byte || (*c == b'.' && !matches!(byte, b'!'..=b'~'));
-            column.len() <= bytes.len()
-                && column.iter().zip(bytes).all(same)
-                && bytes[column.len()..].iter().all(|byte| *byte == b' ')
+            let mut column = &text[from..];
+            let mut shown = bytes.iter();
+            while let Some(c) = column.first() {
+                let length = if *c < 0x80 { 1 } else { 1 + column[1..].iter().take(3).take_while(|c| (0x80..0xC0).contains(*c)).count() };
+                let same = |byte: &u8| c == byte || (!matches!(byte, b'!'..=b'~') && (*c == b'.' || *c >= 0x80));
+                if !shown.next().is_some_and(same) {
+                    return false;
+                }
+                column = &column[length..];
+            }
+            shown.all(|byte| *byte == b' ')
         };
-        blank > 0 && text.len() <= blank + bytes.len() && (1..=blank).any(shows)
+        blank > 0 && text.len() <= blank + 3 * bytes.len() && (1..=blank).any(shows)
     }
 }
 
@@ -620,28 +926,83 @@ fn character(text: &[u8]) -> (u8, usize) {
             };
             (byte, 2)
         }
+        // A letter of Latin-1 in UTF-8 is its byte.
+        [lead @ (0xC2 | 0xC3), next, ..] if (0x80..0xC0).contains(next) => ((lead & 3) << 6 | next & 0x3F, 2),
         [c, ..] => (*c, 1),
         [] => (0, 1),
     }
 }
 
-/// What kind of separator `gap` is: its first mark, or a blank; `None` if it parts more than bytes.
+/// What kind of separator `gap` is: its first mark, or a blank; `None` if it parts more than bytes. Colours
+/// of a terminal and marks of emphasis are nothing.
 fn separator(gap: &[u8]) -> Option<u8> {
-    const LONGEST: usize = 12;
-    let mut found = if gap.is_empty() { 0 } else { b' ' };
-    for c in gap {
+    const LONGEST: usize = 24;
+    let (mut blank, mut mark, mut emphasis) = (false, 0, 0);
+    let mut at = 0;
+    if gap.len() > LONGEST {
+        return None;
+    }
+    while let Some(c) = gap.get(at) {
         match c {
-            b' ' | b'\t' => {}
-            b',' | b';' | b':' | b'.' | b'-' | b'|' | b'/' | b'[' | b']' | b'<' | b'>' | b'"' | b'\''
-            | b'_' | b'$' | b'%' => {
-                if found == b' ' {
-                    found = *c;
-                }
+            b' ' | b'\t' => blank = true,
+            b'*' | b'_' | b'~' => emphasis = if emphasis == 0 { *c } else { emphasis },
+            b',' | b';' | b':' | b'.' | b'-' | b'|' | b'/' | b'[' | b']' | b'<' | b'>' | b'"' | b'\'' | b'$'
+            | b'%' | b'#' => mark = if mark == 0 { *c } else { mark },
+            &ESCAPE => at += escape_sequence(&gap[at..]).checked_sub(1)?,
+            0x80.. => {
+                at += blank_character(&gap[at..]).checked_sub(1)?;
+                blank = true;
             }
             _ => return None,
         }
+        at += 1;
     }
-    (gap.len() <= LONGEST).then_some(found)
+    Some(match (mark, blank, emphasis) {
+        (0, true, _) => b' ',
+        (0, false, emphasis) => emphasis,
+        (mark, ..) => mark,
+    })
+}
+
+const ESCAPE: u8 = 0x1B;
+
+/// How long the sequence for a terminal is that begins `text`: `ESC [ 0 m`; 0 if it is none.
+fn escape_sequence(text: &[u8]) -> usize {
+    const LONGEST: usize = 16;
+    let [ESCAPE, b'[', rest @ ..] = text else { return 0 };
+    let length = rest.iter().take(LONGEST).take_while(|c| is_digit(**c) || matches!(c, b';' | b'?')).count();
+    match rest.get(length) {
+        Some(c) if c.is_ascii_alphabetic() => 2 + length + 1,
+        _ => 0,
+    }
+}
+
+/// How long the character that begins `text` is, if it is a blank beyond ASCII or a dash or quote in the
+/// place of the plain one; else 0.
+fn blank_character(text: &[u8]) -> usize {
+    match text {
+        [0xC2, 0xA0, ..] => 2,
+        // Wide, narrow and invisible blanks, hyphens, quotes.
+        [0xE2, 0x80, 0x80..=0x9F | 0xAF, ..] | [0xE3, 0x80, 0x80 | 0x81, ..] | [0xEF, 0xBB, 0xBF, ..] => 3,
+        _ => 0,
+    }
+}
+
+/// The value of decimal digits and nothing else.
+fn decimal(text: &[u8]) -> Option<usize> {
+    let (value, to) = digits(text, 0)?;
+    (to == text.len()).then(|| usize::try_from(value).ok()).flatten()
+}
+
+/// Whether digits are the bits of a number.
+fn is_bits(text: &[u8]) -> bool {
+    matches!(text.len(), 8 | 16 | 32) && text.iter().all(|c| matches!(c, b'0' | b'1')) && text.contains(&b'1')
+}
+
+/// A number for a word: the same for the same letters, whatever digits are among them.
+fn word_of(word: &[u8]) -> u32 {
+    let letters = word.iter().filter(|c| c.is_ascii_alphabetic());
+    letters.fold(0x811C_9DC5, |hash, c| (hash ^ u32::from(c | 0x20)).wrapping_mul(0x0100_0193))
 }
 
 /// The end of an IP address, with its port: four decimal numbers with dots between, and no more.
@@ -694,9 +1055,30 @@ pub(super) fn is_digit(c: u8) -> bool {
     c.is_ascii_digit()
 }
 
-/// Whether a character is part of a word. What is not ASCII is letters.
+/// Whether a character is part of a word: letters and digits of ASCII, and the two bytes that letters of
+/// Latin alphabets have in UTF-8. Other scripts' signs part words.
 fn is_word(c: u8) -> bool {
-    c.is_ascii_alphanumeric() || c >= 0x80
+    c.is_ascii_alphanumeric() || (0xC3..=0xC9).contains(&c)
+}
+
+/// Where the word that begins at `at` ends.
+fn word_end(line: &[u8], mut at: usize) -> usize {
+    loop {
+        at += match line.get(at..).unwrap_or_default() {
+            [c, ..] if c.is_ascii_alphanumeric() => 1,
+            [0xC3..=0xC9, 0x80..0xC0, ..] => 2,
+            _ => return at,
+        };
+    }
+}
+
+/// The full-width digit or letter that begins `text`, as East Asian keyboards write it, in ASCII.
+fn wide(text: &[u8]) -> Option<u8> {
+    match text {
+        [0xEF, 0xBC, low @ 0x81..0xC0, ..] => Some(low - 0x60),
+        [0xEF, 0xBD, low @ 0x80..0x9F, ..] => Some(low - 0x20),
+        _ => None,
+    }
 }
 
 /// The value of each hex digit; of all other characters, more than 15.

@@ -1,0 +1,268 @@
+//! How much speaks for a telegram, in bits.
+//!
+//! Nothing is a telegram because it consists of bytes: dates, addresses and words of hex letters do, too. A
+//! right check over a known function proves one by itself. What has no such proof is *weighed*: one bit for each
+//! halving of the chance that other bytes would look so. Its own bytes count ([`reading`]), how it stands in
+//! the text ([`place`]), what else stands in the same place ([`company`]), and the conversation around it. It
+//! is a telegram where the sum reaches [`threshold`], which grows with how much there is to be found by
+//! chance.
+//!
+//! | what | bits |
+//! | --- | --- |
+//! | a CRC is right | 16, with a known function and its length: proof |
+//! | header of Modbus TCP: protocol 0 and the length of what follows | 32: proof |
+//! | PROFIBUS: delimiters and sum are right | 24 and more: proof |
+//! | one of the usual functions; another that is known | 5; 2 |
+//! | unit 1 to 32; above 247 | 3; −8 |
+//! | a number of registers or switches that can be; that cannot | 9 or 5; −6 |
+//! | a byte count that counts what follows; with its number of registers | 8; 16 |
+//! | the check is there and wrong; the end is missing | −5; −3 |
+//! | bare in its line; said who sends it; a label before it | 4; 4; 2 |
+//! | in brackets of its own; marked as bytes; a row of a dump; words of the trade | 3; 2; 3; 3 |
+//! | a number beside it says its length | 6 |
+//! | called left over or thrown away | −6 |
+//! | telegrams stand in the same place of other lines; what stands there is none | up to 8; −4 |
+//! | the same unit and function were seen; only telegrams of another kind were | 4; −8 |
+//! | it answers a request, or is answered | 12 |
+//! | the same telegram was seen, with its check | 16 |
+
+use crate::field::Facts;
+use crate::frame::split::{Splitter, Waiting};
+use crate::frame::{
+    Protocol, Verdict, modbus_ascii, modbus_pdu, modbus_rtu, modbus_tcp, modbus_unchecked, profibus_fdl,
+};
+use crate::modbus::EXCEPTION;
+use crate::walk::CRC_16_MODBUS;
+
+/// What bytes without a proof could be.
+#[derive(Clone, Copy, Debug)]
+pub struct Reading {
+    pub protocol: &'static Protocol,
+    pub verdict: Verdict,
+    /// Its bytes begin here: what is before them is none of its own.
+    pub from: usize,
+    pub bits: i32,
+    /// Bytes are missing at its end.
+    pub cut: bool,
+}
+
+/// Its place: it answers a request, or is answered.
+pub const CONVERSATION: i32 = 12;
+
+/// The same telegram was seen with its check.
+pub const SAME: i32 = 16;
+
+/// The same unit and function were seen.
+pub const SEEN: i32 = 4;
+
+/// The text has telegrams, but of another kind.
+pub const OTHER_KIND: i32 = -8;
+
+/// Its check is wrong: of a hundred telegrams one is, of other bytes all are.
+const WRONG: i32 = -5;
+
+/// Its end is missing.
+const CUT: i32 = -3;
+
+/// How many bits it takes where so many pieces have no proof: among more, more is found by chance.
+pub fn threshold(pieces: usize) -> i32 {
+    12 + (1 + pieces).ilog2() as i32
+}
+
+/// What the text says, in bits.
+pub fn place(facts: &Facts) -> i32 {
+    let of = |fact: bool, bits: i32| if fact { bits } else { 0 };
+    of(facts.bare, 4)
+        + of(facts.said, 4)
+        + of(facts.labelled && !facts.said, 2)
+        + of(facts.wrapped, 3)
+        + of(facts.marked, 2)
+        + of(facts.dumped, 3)
+        + of(facts.of_telegrams, 3)
+        + of(facts.counted, 6)
+        + of(facts.of_leftovers, -6)
+}
+
+/// What others say that stand in the same way in their lines: of so many pieces some were proven, and some
+/// look like telegrams.
+pub fn company(pieces: usize, proven: usize, alike: usize) -> i32 {
+    /// Few that are alike say little: each other.
+    const MOST: i32 = 8;
+    let good = proven + alike;
+    match (good * 2 > pieces, good) {
+        (false, _) if pieces > 2 => -4,
+        (false, _) | (true, 0 | 1) if proven == 0 => 0,
+        _ => (3 * proven as i32 + 2 * alike.saturating_sub(1) as i32).min(MOST),
+    }
+}
+
+/// What bytes are most likely, if they are a telegram whose check is wrong, missing, or was never printed.
+pub fn reading(bytes: &[u8], splitter: &Splitter, waiting: Option<Waiting>) -> Option<Reading> {
+    let readings = [
+        damaged(bytes, splitter),
+        unchecked(bytes, splitter),
+        pdu(bytes, splitter),
+        cut(bytes, splitter, waiting),
+        over_tcp(bytes, splitter),
+        over_profibus(bytes),
+    ];
+    readings.into_iter().flatten().reduce(|best, other| if other.bits > best.bits { other } else { best })
+}
+
+/// Characters behind a colon whose LRC is wrong.
+pub fn ascii(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
+    /// The colon, and digits only behind it.
+    const COLON: i32 = 10;
+    let pdu = modbus_ascii::ASCII.pdu_bytes(bytes);
+    let bits = COLON + unit(*bytes.first()?) + structure(pdu, splitter)? + WRONG;
+    Some(Reading { protocol: &modbus_ascii::PROTOCOL, verdict: Verdict::Wrong, from: 0, bits, cut: false })
+}
+
+fn damaged(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
+    let pdu = modbus_rtu::RTU.pdu_bytes(bytes);
+    let bits = unit(*bytes.first()?) + structure(pdu, splitter)? + WRONG;
+    Some(Reading { protocol: &modbus_rtu::PROTOCOL, verdict: Verdict::Wrong, from: 0, bits, cut: false })
+}
+
+fn unchecked(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
+    let (first, pdu) = bytes.split_first()?;
+    let bits = unit(*first) + structure(pdu, splitter)?;
+    Some(without_check(0, bits, false))
+}
+
+fn without_check(from: usize, bits: i32, cut: bool) -> Reading {
+    Reading { protocol: &modbus_unchecked::PROTOCOL, verdict: Verdict::NoCheck, from, bits, cut }
+}
+
+fn pdu(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
+    /// Two bytes are no PDU that could be told.
+    const SHORTEST: usize = 5;
+    let bits = structure(bytes, splitter).filter(|_| bytes.len() >= SHORTEST)?;
+    // Whatever could be a PDU is more likely one with its unit.
+    Some(Reading { protocol: &modbus_pdu::PROTOCOL, verdict: Verdict::NoCheck, from: 0, bits: bits - 1, cut: false })
+}
+
+/// A telegram whose end is missing: the request that waits tells it, or its byte count.
+fn cut(bytes: &[u8], splitter: &Splitter, waiting: Option<Waiting>) -> Option<Reading> {
+    /// What may come before it: the line was not silent when it was switched.
+    const STRAY: usize = 2;
+    if let Some(waiting) = waiting {
+        let awaited = |from: &usize| {
+            let length = waiting.length.map_or(usize::MAX, usize::from);
+            let begins = bytes[*from..].starts_with(&[waiting.unit, waiting.function]);
+            let fits = splitter.rtu_lengths(&bytes[*from..])[1].is_none_or(|own| own == length);
+            begins && fits && bytes.len() - from < length
+        };
+        if let Some(from) = (0..=STRAY.min(bytes.len().saturating_sub(2))).find(awaited) {
+            let bits = CONVERSATION + function(waiting.function);
+            return Some(without_check(from, bits, true));
+        }
+    }
+    let [first, code, count, ..] = *bytes else { return None };
+    let [_, response] = splitter.rtu_lengths(bytes);
+    let even = count % 2 == 0 || matches!(code, 1 | 2);
+    let missing = response?.checked_sub(bytes.len()).filter(|missing| *missing > 0)?;
+    if code & EXCEPTION != 0 || !even || count == 0 || count > 250 || !matches!(code, 1..=4 | 23 | 100) {
+        return None;
+    }
+    // The last byte of the check is missing: the first one tells.
+    let check = if missing == 1 {
+        let (last, covered) = bytes.split_last()?;
+        let right = CRC_16_MODBUS.wire(covered) >> 8 == u64::from(*last);
+        if right { 8 } else { return None }
+    } else {
+        0
+    };
+    Some(without_check(0, unit(first) + function(code) + 1 + check + CUT, true))
+}
+
+/// A frame of Modbus TCP whose length is wrong.
+fn over_tcp(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
+    let pdu = bytes.get(modbus_tcp::HEADER..)?;
+    let [_, _, 0, 0, 0 | 1, _, ..] = *bytes else { return None };
+    let length = usize::from(u16::from_be_bytes([bytes[4], bytes[5]]));
+    // Nearly right: a slip, or bytes that are missing.
+    let near = length.abs_diff(bytes.len() - 6) <= 4;
+    let cut = length > bytes.len() - 6;
+    let inside = structure(pdu, splitter).or((cut && splitter.knows(*pdu.first()?)).then_some(0))?;
+    let bits = 12 + if near { 8 } else { 0 } + inside + CUT;
+    (length > 2 && (near || cut)).then_some(Reading {
+        protocol: &modbus_tcp::PROTOCOL,
+        verdict: Verdict::NoCheck,
+        from: 0,
+        bits,
+        cut,
+    })
+}
+
+/// A frame of PROFIBUS whose sum is wrong or whose end is missing.
+fn over_profibus(bytes: &[u8]) -> Option<Reading> {
+    use profibus_fdl::{Fdl, PROTOCOL, SD2};
+    let reading = |bits, verdict, cut| Some(Reading { protocol: &PROTOCOL, verdict, from: 0, bits, cut });
+    let ends = bytes.last() == Some(&profibus_fdl::END);
+    match (bytes, Fdl::length(bytes)) {
+        ([SD2, a, b, SD2, ..], Some(length)) if a == b && length == bytes.len() => reading(24 + WRONG, Verdict::Wrong, false),
+        ([SD2, a, b, SD2, ..], Some(length)) if a == b && length > bytes.len() && !ends => {
+            reading(16 + CUT, Verdict::Unchecked, true)
+        }
+        ([SD2, _, _, SD2, ..], _) if ends => reading(20 + WRONG, Verdict::Wrong, false),
+        ([profibus_fdl::SC], _) => reading(8, Verdict::NoCheck, false),
+        ([profibus_fdl::SD1, ..], Some(length)) if length == bytes.len() && ends => reading(8 + WRONG, Verdict::Wrong, false),
+        _ => None,
+    }
+}
+
+fn unit(unit: u8) -> i32 {
+    match unit {
+        1..=32 => 3,
+        0..=247 => 0,
+        248.. => -8,
+    }
+}
+
+fn function(function: u8) -> i32 {
+    match function & !EXCEPTION {
+        1..=6 | 15 | 16 => 5,
+        _ => 2,
+    }
+}
+
+/// How much a PDU looks like one: its function is known, its length fits, its numbers can be.
+pub(super) fn structure(pdu: &[u8], splitter: &Splitter) -> Option<i32> {
+    const UNLIKELY: i32 = -6;
+    let code = *pdu.first()?;
+    let [asks, answers] = splitter.sides(pdu);
+    if !asks && !answers {
+        return None;
+    }
+    let number = |at: usize| pdu.get(at..at + 2).map_or(0, |word| u32::from(u16::from_be_bytes([word[0], word[1]])));
+    let can_be = |most: u32, bits: i32| {
+        let quantity = number(3);
+        if (1..=most).contains(&quantity) && number(1) + quantity <= 1 << 16 { bits } else { UNLIKELY }
+    };
+    let (registers, switches) = (9, 5);
+    let of_request = match code {
+        1 | 2 => can_be(2000, switches),
+        3 | 4 => can_be(125, registers),
+        100 => can_be(62, registers),
+        5 => if matches!(pdu.get(3..5), Some([0 | 0xFF, 0])) { 15 } else { UNLIKELY },
+        6 => 0,
+        15 if u32::from(pdu.get(5).copied().unwrap_or_default()) == number(3).div_ceil(8) => 16,
+        16 if u32::from(pdu.get(5).copied().unwrap_or_default()) == 2 * number(3) => 16,
+        101 if u32::from(pdu.get(5).copied().unwrap_or_default()) == 4 * number(3) => 16,
+        15 | 16 | 101 => UNLIKELY,
+        _ => 0,
+    };
+    let of_response = match code {
+        1..=4 | 23 | 100 => 8,
+        15 => can_be(1968, switches),
+        16 => can_be(123, registers),
+        101 => can_be(62, registers),
+        code if code & EXCEPTION != 0 => {
+            if matches!(pdu.get(1), Some(1..=6 | 8 | 10 | 11 | 64..=67)) { 4 } else { UNLIKELY }
+        }
+        _ => of_request,
+    };
+    let best = [(asks, of_request), (answers, of_response)].into_iter().filter(|(fits, _)| *fits).map(|(_, bits)| bits).max();
+    Some(function(code) + best.unwrap_or_default())
+}

@@ -1,0 +1,454 @@
+//! What of a text without a proof is a telegram, when all of it is known.
+
+use std::collections::{HashMap, HashSet};
+
+use super::collect::Traffic;
+use super::entry::{Entry, Role};
+use crate::dialogue::evidence::{self, CONVERSATION, OTHER_KIND, SAME, SEEN};
+use crate::dialogue::foreign::FT12;
+use crate::dialogue::{Candidate, protocols};
+use crate::field::{Facts, Span};
+use crate::frame::{
+    Protocol, Verdict, modbus_ascii, modbus_pdu, modbus_rtu, modbus_tcp, modbus_unchecked, profibus_fdl,
+};
+use crate::modbus::EXCEPTION;
+
+/// An entry without a proof.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Weak {
+    pub entry: u32,
+    /// What its bytes and its place say.
+    pub bits: i32,
+    /// It looks like a telegram of some kind.
+    pub read: bool,
+    pub cut: bool,
+    pub facts: Facts,
+}
+
+/// What stands in the same way in its lines.
+#[derive(Clone, Copy, Debug, Default)]
+struct Shape {
+    number: u32,
+    pieces: usize,
+    proven: usize,
+    alike: usize,
+}
+
+/// The shapes of a text, as [`Facts::shape`] numbers them.
+#[derive(Debug, Default)]
+pub(super) struct Shapes {
+    shapes: Vec<Shape>,
+    latest: usize,
+}
+
+impl Shapes {
+    #[inline]
+    pub fn count(&mut self, number: u32, proven: bool) {
+        let shape = self.of(number);
+        shape.pieces += 1;
+        shape.proven += usize::from(proven);
+    }
+
+    pub fn look_alike(&mut self, number: u32) {
+        self.of(number).alike += 1;
+    }
+
+    /// More share the last one.
+    #[inline]
+    fn of(&mut self, number: u32) -> &mut Shape {
+        const MOST: usize = 256;
+        if self.shapes.get(self.latest).is_none_or(|shape| shape.number != number) {
+            let known = self.shapes.iter().position(|shape| shape.number == number);
+            self.latest = known.unwrap_or(self.shapes.len().min(MOST - 1));
+            if self.latest == self.shapes.len() {
+                self.shapes.push(Shape { number, ..Shape::default() });
+            }
+        }
+        &mut self.shapes[self.latest]
+    }
+
+    fn bits(&self, number: u32) -> i32 {
+        let shape = self.shapes.iter().find(|shape| shape.number == number).copied().unwrap_or_default();
+        evidence::company(shape.pieces, shape.proven, shape.alike)
+    }
+
+    fn is_proven(&self, number: u32) -> bool {
+        self.shapes.iter().any(|shape| shape.number == number && shape.proven * 2 > shape.pieces)
+    }
+}
+
+/// The kinds of frames, as far as a text rarely mixes them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Family {
+    Serial,
+    Tcp,
+    Profibus,
+}
+
+fn family(protocol: &Protocol) -> Family {
+    match () {
+        () if protocol.is(&modbus_tcp::PROTOCOL) => Family::Tcp,
+        () if [&modbus_rtu::PROTOCOL, &modbus_ascii::PROTOCOL, &modbus_pdu::PROTOCOL, &modbus_unchecked::PROTOCOL]
+            .into_iter()
+            .any(|serial| protocol.is(serial)) =>
+        {
+            Family::Serial
+        }
+        () => Family::Profibus,
+    }
+}
+
+impl Traffic {
+    /// Judges all entries without a proof, and takes out those that are no telegrams.
+    pub(super) fn judge(&mut self, typed: bool) {
+        if self.weak.is_empty() && self.gone.is_empty() && self.foreign_protocols[FT12] == 0 {
+            return self.settle_passed();
+        }
+        let mut weak = std::mem::take(&mut self.weak);
+        let mut gone: HashSet<u32> = self.gone.drain(..).collect();
+        weak.retain(|weak| !gone.contains(&weak.entry));
+        if typed {
+            self.choose_typed(&mut weak);
+        }
+        let known = Known::of(self, &weak, &gone);
+        let threshold = evidence::threshold(weak.len());
+        // Telegrams inside of what is none.
+        let mut more: Vec<(u32, Vec<Entry>)> = Vec::new();
+        for at in 0..weak.len() {
+            let one = weak[at];
+            let accepted = self.weigh(&one, &known, &gone, &weak, typed, threshold);
+            let entry = &mut self.entries[one.entry as usize];
+            if accepted {
+                let copy = known.is_cut_copy(entry, &self.data);
+                if one.cut || copy.is_some() {
+                    as_cut(entry);
+                }
+                entry.sides = copy.unwrap_or(entry.sides);
+                continue;
+            }
+            let placed = one.facts.bare || one.facts.said || one.facts.dumped;
+            let copies = if placed { known.cut_copies(bytes(entry, &self.data)) } else { Vec::new() };
+            if !copies.is_empty() {
+                let whole = *entry;
+                gone.insert(one.entry);
+                let copy = |span: Span| Entry {
+                    at: whole.at + span.from as u32,
+                    skip: whole.skip + span.from as u16,
+                    length: span.len() as u16,
+                    ..whole
+                };
+                more.push((one.entry, copies.into_iter().map(copy).collect::<Vec<_>>()));
+                continue;
+            }
+            let repeats = self.repeats(&one, &gone);
+            let entry = &mut self.entries[one.entry as usize];
+            let own = bytes(entry, &self.data);
+            let placed = self.shapes.is_proven(one.facts.shape) && !one.facts.abridged && !one.facts.rest;
+            if placed && !repeats {
+                // The layout says that a telegram stands here: one that is damaged, or noise.
+                let like = own.get(1).is_some_and(|function| self.splitter.knows(*function)) && own[0] <= 247;
+                if !like || known.families[Family::Tcp as usize] {
+                    entry.role = Role::Discarded;
+                    entry.verdict = Verdict::NoCheck;
+                }
+            } else {
+                gone.insert(one.entry);
+                self.passed.push((entry.line, entry.offset));
+            }
+        }
+        self.take_out_foreign(&mut gone);
+        let more = self.cut_copies(more, &known);
+        if !gone.is_empty() {
+            let mut more = more.into_iter().peekable();
+            let mut kept = Vec::with_capacity(self.entries.len());
+            for (index, entry) in (0_u32..).zip(&self.entries) {
+                if let Some((_, entries)) = more.next_if(|(at, _)| *at == index) {
+                    kept.extend(entries);
+                } else if !gone.contains(&index) {
+                    kept.push(*entry);
+                }
+            }
+            self.entries = kept;
+            let mut sorted: Vec<u32> = gone.iter().copied().collect();
+            sorted.sort_unstable();
+            let shift = |entry: u32| entry - sorted.partition_point(|other| *other < entry) as u32;
+            self.pauses.iter_mut().for_each(|(entry, _)| *entry = shift(*entry));
+        }
+        self.settle_passed();
+    }
+
+    /// Makes entries of telegrams that were found without their ends.
+    fn cut_copies(&mut self, mut more: Vec<(u32, Vec<Entry>)>, known: &Known) -> Vec<(u32, Vec<Entry>)> {
+        for entry in more.iter_mut().flat_map(|(_, entries)| entries) {
+            let own = bytes(entry, &self.data).to_vec();
+            entry.set_protocol(&modbus_unchecked::PROTOCOL);
+            (entry.verdict, entry.role) = (Verdict::NoCheck, Role::Plain);
+            (entry.unit, entry.function) = (own.first().copied(), own.get(1).copied().unwrap_or_default());
+            entry.sides = known.is_cut_copy(entry, &self.data).unwrap_or_default();
+        }
+        more
+    }
+
+    /// Lines that have a telegram were not passed.
+    fn settle_passed(&mut self) {
+        let lines: HashSet<u32> = if self.passed.is_empty() {
+            HashSet::new()
+        } else {
+            self.entries.iter().map(|entry| entry.line).collect()
+        };
+        self.passed.retain(|(line, _)| !lines.contains(line));
+        self.passed.sort_unstable();
+        self.passed.dedup();
+    }
+
+    /// Where a person types nothing but telegrams, all of them together tell the protocol.
+    fn choose_typed(&mut self, weak: &mut [Weak]) {
+        /// More are no typing.
+        const MOST: usize = 10_000;
+        if self.entries.len() > MOST {
+            return;
+        }
+        let candidates: Vec<Candidate<'_>> = self
+            .entries
+            .iter()
+            .map(|entry| Candidate {
+                bytes: bytes(entry, &self.data),
+                written_as: entry.protocol().is(&modbus_ascii::PROTOCOL).then_some(&modbus_ascii::PROTOCOL),
+            })
+            .collect();
+        let choices: Vec<&'static Protocol> =
+            protocols(&candidates, &self.settings).into_iter().map(|choice| choice.protocol).collect();
+        for one in weak {
+            let chosen = choices[one.entry as usize];
+            let index = one.entry as usize;
+            let own = self.entries[index].protocol();
+            let other = family(chosen) != Family::Serial || !one.read || chosen.is(&modbus_ascii::PROTOCOL);
+            let telegram = bytes(&self.entries[index], &self.data).to_vec();
+            if !one.read && (chosen.fit)(&telegram, &self.settings).bits > 0 {
+                one.read = true;
+            }
+            if other && !chosen.is(own) {
+                let verdict = (chosen.verdict)(&telegram);
+                self.retype(index, &telegram, chosen, verdict);
+                one.cut = false;
+            }
+        }
+    }
+
+    /// Whether an entry without a proof is a telegram.
+    fn weigh(&self, one: &Weak, known: &Known, gone: &HashSet<u32>, weak: &[Weak], typed: bool, threshold: i32) -> bool {
+        let entry = &self.entries[one.entry as usize];
+        let own = bytes(entry, &self.data);
+        let facts = &one.facts;
+        // What one person types into an empty page is meant to be one.
+        if typed && (one.read || weak.len() == 1) && !facts.abridged {
+            return true;
+        }
+        if (facts.abridged && one.cut) || self.repeats(one, gone) {
+            return false;
+        }
+        let copies = known.copies(entry, &self.data) && (facts.said || facts.bare || facts.dumped);
+        if !one.read {
+            return copies;
+        }
+        let family = family(entry.protocol());
+        let mut bits = one.bits + self.shapes.bits(facts.shape);
+        bits += if copies { SAME } else { 0 };
+        let pair = (entry.unit.unwrap_or_default(), entry.function & !EXCEPTION);
+        bits += if entry.unit.is_some() && known.seen.contains(&pair) { SEEN } else { 0 };
+        if known.families.iter().any(|seen| *seen) && !known.families[family as usize] {
+            bits += OTHER_KIND;
+        }
+        if typed {
+            bits += CONVERSATION;
+        }
+        if let [profibus_fdl::SC] = own {
+            bits += if known.families[Family::Profibus as usize] { SAME } else { OTHER_KIND };
+        }
+        if self.is_in_conversation(one, own, gone) {
+            bits += CONVERSATION;
+        }
+        bits >= threshold
+    }
+
+    /// Whether an entry answers one of those just before it, or is answered by one just behind.
+    fn is_in_conversation(&self, one: &Weak, own: &[u8], gone: &HashSet<u32>) -> bool {
+        /// So far away they may be.
+        const NEAR: usize = 3;
+        let index = one.entry as usize;
+        let entry = &self.entries[index];
+        let near = |other: &&(u32, &Entry)| !gone.contains(&other.0) && other.1.port == entry.port && other.1.role != Role::Discarded;
+        let before = self.numbered(index.saturating_sub(NEAR), index);
+        let behind = self.numbered(index + 1, index + 1 + NEAR);
+        let fits = |request: &Entry, response: &Entry| self.answers(request, response, one.cut);
+        before.iter().filter(near).any(|(_, other)| fits(other, entry))
+            || (!one.cut && behind.iter().filter(near).any(|(_, other)| fits(entry, other)))
+            || channel(own).is_some_and(|own| {
+                let others = before.iter().chain(&behind).filter(near);
+                others.into_iter().any(|(_, other)| channel(bytes(other, &self.data)) == Some(own))
+            })
+    }
+
+    /// The entries `from` to `to`, as far as there are so many, with their numbers.
+    fn numbered(&self, from: usize, to: usize) -> Vec<(u32, &Entry)> {
+        let entries = Span::new(from, to.max(from)).of(&self.entries);
+        (from as u32..).zip(entries).collect()
+    }
+
+    /// Whether an entry is a part of a telegram near it, as where a program prints its data again.
+    fn repeats(&self, one: &Weak, gone: &HashSet<u32>) -> bool {
+        const NEAR: usize = 8;
+        let index = one.entry as usize;
+        let own = bytes(&self.entries[index], &self.data);
+        let near = self.numbered(index.saturating_sub(NEAR), index + NEAR);
+        own.len() > 2
+            && near.into_iter().any(|(number, other)| {
+                let right = other.verdict == Verdict::Right && !gone.contains(&number);
+                right && bytes(other, &self.data).get(1..).is_some_and(|rest| rest.windows(own.len()).any(|part| part == own))
+            })
+    }
+
+    /// Whether one telegram can be the answer to another.
+    fn answers(&self, request: &Entry, response: &Entry, cut: bool) -> bool {
+        let (Some(asked), Some(answer)) = (pdu(request, &self.data), pdu(response, &self.data)) else { return false };
+        let same_unit = match (request.unit, response.unit) {
+            (Some(asked), Some(answers)) => asked == answers,
+            _ => true,
+        };
+        let (Some(function), Some(code)) = (asked.first(), answer.first()) else { return false };
+        if !same_unit || code & !EXCEPTION != *function || !request.sides[0] {
+            return false;
+        }
+        if code & EXCEPTION != 0 {
+            return answer.len() == 2;
+        }
+        if request.protocol().is(&modbus_tcp::PROTOCOL) && response.protocol().is(&modbus_tcp::PROTOCOL) {
+            return bytes(request, &self.data)[..2] == bytes(response, &self.data)[..2];
+        }
+        match self.splitter.answer_length(asked) {
+            Some(length) if cut => answer.len() < length && answer.get(1).is_none_or(|count| usize::from(*count) + 2 == length),
+            Some(length) => answer.len() == length && response.sides[1],
+            None => false,
+        }
+    }
+
+    /// Where the short frames of M-Bus and IEC 60870-5 were seen, frames like those of PROFIBUS are theirs, too.
+    fn take_out_foreign(&mut self, gone: &mut HashSet<u32>) {
+        let own = self.entries.iter().filter(|entry| {
+            entry.protocol().is(&profibus_fdl::PROTOCOL) && bytes(entry, &self.data).first() == Some(&profibus_fdl::SD1)
+        });
+        if (self.foreign_protocols[FT12] as usize) <= own.count() {
+            return;
+        }
+        for (index, entry) in (0_u32..).zip(&self.entries) {
+            if entry.protocol().is(&profibus_fdl::PROTOCOL) {
+                gone.insert(index);
+                self.passed.push((entry.line, entry.offset));
+            }
+        }
+    }
+}
+
+/// What the telegrams with a proof say of the others.
+struct Known {
+    /// Units with their functions.
+    seen: HashSet<(u8, u8)>,
+    /// Of which [`Family`] there are some.
+    families: [bool; 3],
+    /// The telegrams on serial lines by their first bytes, and which sides they can be of.
+    bodies: HashMap<[u8; 4], Vec<(Vec<u8>, [bool; 2])>>,
+}
+
+impl Known {
+    fn of(traffic: &Traffic, weak: &[Weak], gone: &HashSet<u32>) -> Self {
+        /// More that begin alike are a log whose lines tell enough.
+        const MOST: usize = 16;
+        let without: HashSet<u32> = weak.iter().map(|weak| weak.entry).collect();
+        let mut known = Self { seen: HashSet::new(), families: [false; 3], bodies: HashMap::new() };
+        for (index, entry) in (0_u32..).zip(&traffic.entries) {
+            if without.contains(&index) || gone.contains(&index) || entry.role == Role::Discarded {
+                continue;
+            }
+            known.families[family(entry.protocol()) as usize] = true;
+            if let Some(unit) = entry.unit {
+                known.seen.insert((unit, entry.function & !EXCEPTION));
+            }
+            let own = bytes(entry, &traffic.data);
+            if let (true, Some(first)) = (entry.protocol().is(&modbus_rtu::PROTOCOL), own.first_chunk())
+                && entry.verdict == Verdict::Right
+            {
+                let alike = known.bodies.entry(*first).or_default();
+                if alike.len() < MOST && alike.iter().all(|(body, _)| body != own) {
+                    alike.push((own.to_vec(), entry.sides));
+                }
+            }
+        }
+        known
+    }
+
+    /// The telegrams that begin as `own` does.
+    fn alike(&self, own: &[u8]) -> &[(Vec<u8>, [bool; 2])] {
+        own.first_chunk().and_then(|first| self.bodies.get(first)).map_or(&[], Vec::as_slice)
+    }
+
+    /// Whether an entry is a telegram that was seen, with another check, without one, or without its end.
+    fn copies(&self, entry: &Entry, data: &[u8]) -> bool {
+        let own = bytes(entry, data);
+        let body = &own[..own.len().saturating_sub(2)];
+        self.alike(own).iter().any(|(known, _)| {
+            let same = entry.verdict == Verdict::Wrong && known[..known.len() - 2] == *body;
+            same || (own.len() + 3 >= known.len() || own.len() > 6) && known.starts_with(own)
+        })
+    }
+
+    /// If it is one without its end: which sides that can be of.
+    fn is_cut_copy(&self, entry: &Entry, data: &[u8]) -> Option<[bool; 2]> {
+        let own = bytes(entry, data);
+        let whole = self.alike(own).iter().find(|(known, _)| known.len() > own.len() && known.starts_with(own));
+        whole.map(|(_, sides)| *sides)
+    }
+
+    /// Where in bytes telegrams that were seen stand without their last byte or two, again and again.
+    fn cut_copies(&self, own: &[u8]) -> Vec<Span> {
+        let mut found = Vec::new();
+        let mut at = 0;
+        while at < own.len() {
+            let length = |known: &[u8]| (1..=2).map(|missing| known.len() - missing).find(|length| own[at..].starts_with(&known[..*length]));
+            match self.alike(&own[at..]).iter().find_map(|(known, _)| length(known)) {
+                Some(length) => {
+                    found.push(Span::new(at, at + length));
+                    at += length;
+                }
+                None => at += 1,
+            }
+        }
+        found
+    }
+}
+
+/// An entry whose end is missing has no check.
+fn as_cut(entry: &mut Entry) {
+    if entry.verdict == Verdict::Wrong {
+        entry.verdict = Verdict::NoCheck;
+        entry.set_protocol(&modbus_unchecked::PROTOCOL);
+    }
+}
+
+fn bytes<'a>(entry: &Entry, data: &'a [u8]) -> &'a [u8] {
+    let from = entry.at as usize;
+    Span::new(from, from + usize::from(entry.length)).of(data)
+}
+
+/// The PDU of a Modbus telegram.
+fn pdu<'a>(entry: &Entry, data: &'a [u8]) -> Option<&'a [u8]> {
+    let own = bytes(entry, data);
+    match entry.protocol().speaker {
+        crate::frame::Speaker::Pdu(inside) => Some(inside(own).0),
+        _ => None,
+    }
+}
+
+/// Index and value of what may be a parameter channel: request and confirmation have both in common.
+fn channel(own: &[u8]) -> Option<&[u8]> {
+    (own.len() == 8 && own[2..4] != [0, 0]).then(|| &own[1..4])
+}

@@ -1,0 +1,436 @@
+//! Pieces of a text: what in them is proven to be a telegram, what is the beginning of one that goes on in the
+//! next piece, and what may be one.
+
+use super::collect::{PAUSE, Row, Traffic, has_length, is_right, keep};
+use super::entry::{NO_TIME, Role};
+use super::judge::Weak;
+use crate::dialogue::evidence::{self, Reading};
+use crate::dialogue::foreign::FOREIGN;
+use crate::field::Facts;
+use crate::frame::split::{Begins, Place, Waiting};
+use crate::frame::{PROTOCOLS, Protocol, Speaker, Verdict, modbus_ascii, modbus_rtu, modbus_tcp, profibus_fdl};
+use crate::modbus::EXCEPTION;
+
+/// The beginning of a telegram, of one or more pieces.
+#[derive(Clone, Debug)]
+pub(super) struct Held {
+    bytes: Vec<u8>,
+    rows: Vec<Row>,
+    /// Its telegram begins here: the line was not silent before.
+    from: usize,
+    /// Where its last piece begins.
+    latest: usize,
+    /// The entries that it is if nothing follows: one, or those of a buffer that grows.
+    entries: Vec<u32>,
+    /// Nothing is missing but its check.
+    complete: bool,
+    /// How many other pieces came since.
+    age: usize,
+}
+
+/// A telegram in a piece.
+type Found = (usize, usize, &'static Protocol, Verdict);
+
+/// A piece longer than this is no single telegram.
+const LONGEST: usize = 300;
+
+impl Traffic {
+    /// Reads the piece in a lane's buffer.
+    pub(super) fn read_piece(&mut self, index: usize) {
+        let lane = &mut self.lanes[index];
+        let mut buffer = std::mem::take(&mut lane.buffer);
+        let mut decimal = std::mem::take(&mut lane.decimal);
+        let mut breaks = std::mem::take(&mut lane.breaks);
+        let row = lane.row(0);
+        self.piece(index, &buffer, &decimal, &breaks, row);
+        buffer.clear();
+        decimal.clear();
+        breaks.clear();
+        let lane = &mut self.lanes[index];
+        (lane.buffer, lane.decimal, lane.breaks) = (buffer, decimal, breaks);
+        lane.rows.clear();
+    }
+
+    fn piece(&mut self, index: usize, bytes: &[u8], decimal: &[u8], breaks: &[usize], row: Row) {
+        let facts = row.facts;
+        if self.by_hand && !facts.column && !facts.rest {
+            return self.all_by_hand(index, bytes);
+        }
+        if facts.column {
+            for reading in [bytes, decimal] {
+                let mut found = Vec::new();
+                self.inside(index, reading, &mut found);
+                self.take_found(index, reading, 0, &found);
+                if !found.is_empty() || self.characters(index, reading, &facts) {
+                    return;
+                }
+            }
+            return self.passed.push((row.line, row.offset));
+        }
+        let twice = self.latest_piece.0 == row.line && self.latest_piece.1 == bytes;
+        if twice && row.line > 0 && bytes.len() > 1 {
+            return;
+        }
+        self.latest_piece.0 = row.line;
+        self.latest_piece.1.clear();
+        self.latest_piece.1.extend_from_slice(bytes);
+        let mut found = Vec::new();
+        for reading in [bytes, decimal] {
+            if self.whole(index, reading, &mut found) {
+                self.release(index, reading);
+                self.shapes.count(facts.shape, true);
+                return self.take_found(index, reading, 0, &found);
+            }
+        }
+        if self.characters(index, bytes, &facts) {
+            return self.shapes.count(facts.shape, true);
+        }
+        if self.goes_on(index, bytes, row) {
+            return;
+        }
+        // `8: 01 03 …`: what stands before the last break is not of the telegram.
+        for from in breaks.iter().copied() {
+            for reading in [bytes, decimal] {
+                if reading.get(from..).is_some_and(|rest| self.whole(index, rest, &mut found)) {
+                    self.shapes.count(facts.shape, true);
+                    return self.take_found(index, &reading[from..], from, &found);
+                }
+            }
+        }
+        for reading in [bytes, decimal] {
+            self.inside(index, reading, &mut found);
+            if !found.is_empty() {
+                self.shapes.count(facts.shape, true);
+                self.take_found(index, reading, 0, &found);
+                return self.take_rest(index, reading, &found, row);
+            }
+        }
+        if let Some(foreign) = FOREIGN.iter().position(|foreign| (foreign.fits)(bytes)) {
+            self.foreign_protocols[foreign] += 1;
+        }
+        self.unproven(index, bytes, decimal, breaks, row);
+    }
+
+    /// A person says that all pieces are telegrams of the protocol.
+    fn all_by_hand(&mut self, index: usize, bytes: &[u8]) {
+        let main = self.protocol;
+        if main.is(&modbus_ascii::PROTOCOL)
+            && let Some(bytes) = modbus_ascii::from_characters(bytes)
+        {
+            return self.add(index, &bytes, 0, main, (main.verdict)(&bytes));
+        }
+        let mut at = 0;
+        while at < bytes.len() {
+            let length = (main.first)(&bytes[at..]).max(1);
+            let telegram = &bytes[at..at + length];
+            self.add(index, telegram, at, main, (main.verdict)(telegram));
+            at += length;
+        }
+    }
+
+    /// Adds telegrams that were found in a piece, of which `bytes` begin at `from`.
+    fn take_found(&mut self, index: usize, bytes: &[u8], from: usize, found: &[Found]) {
+        for (at, to, protocol, verdict) in found.iter().copied() {
+            self.add(index, &bytes[at..to], from + at, protocol, verdict);
+        }
+    }
+
+    /// Whether all of a piece is telegrams beyond doubt.
+    fn whole(&self, index: usize, bytes: &[u8], found: &mut Vec<Found>) -> bool {
+        found.clear();
+        if bytes.len() < 4 {
+            return false;
+        }
+        if self.is_rtu(bytes) {
+            found.push((0, bytes.len(), &modbus_rtu::PROTOCOL, Verdict::Right));
+            return true;
+        }
+        let waiting = self.waiting_at(index);
+        for protocol in [&modbus_tcp::PROTOCOL, &profibus_fdl::PROTOCOL, &modbus_rtu::PROTOCOL] {
+            found.clear();
+            let mut at = 0;
+            while at < bytes.len() {
+                let place = Place { bytes: &bytes[at..], last: true, in_step: true, waiting: waiting.filter(|_| at == 0) };
+                let Begins::Telegram(length) = self.splitter.begins(protocol, place) else { break };
+                let telegram = &bytes[at..at + length];
+                let checked = (protocol.verdict)(telegram);
+                found.push((at, at + length, protocol, checked));
+                at += length;
+            }
+            let proven = |(from, to, ..): &Found| to - from > 3;
+            if at == bytes.len() && found.iter().any(proven) {
+                return true;
+            }
+        }
+        found.clear();
+        false
+    }
+
+    /// Whether bytes are one RTU frame with a right check. A check that is right before the telegram's end says
+    /// little, since zeros may follow: so the length of its function counts.
+    fn is_rtu(&self, bytes: &[u8]) -> bool {
+        if !is_right(bytes) {
+            return false;
+        }
+        let pdu = &bytes[1..bytes.len() - 2];
+        if !self.splitter.knows(bytes[1]) {
+            // Nor is a check right by itself that zeros only follow.
+            let before = bytes.len() - 1;
+            return bytes.len() > 4 && bytes[1] & !EXCEPTION != 0 && !(bytes[before] == 0 && is_right(&bytes[..before]));
+        }
+        let lengths = self.splitter.rtu_lengths(bytes);
+        let shorter = lengths.into_iter().flatten().any(|length| length < bytes.len() && is_right(&bytes[..length]));
+        let longer = lengths.into_iter().flatten().any(|length| length > bytes.len());
+        self.splitter.sides(pdu) != [false; 2] || (!shorter && !longer)
+    }
+
+    /// Takes a piece that is written as the characters of a telegram: a frame of Modbus ASCII, or hex text.
+    fn characters(&mut self, index: usize, bytes: &[u8], facts: &Facts) -> bool {
+        let decoded = if facts.colon { Some(bytes.to_vec()) } else { modbus_ascii::from_characters(bytes) };
+        if let Some(telegram) = decoded {
+            let verdict = modbus_ascii::ASCII.verdict(&telegram);
+            let known = telegram.get(1).is_some_and(|function| self.splitter.knows(*function));
+            if verdict == Verdict::Right && known {
+                self.release(index, bytes);
+                self.add(index, &telegram, 0, &modbus_ascii::PROTOCOL, verdict);
+                return true;
+            }
+            let reading = evidence::ascii(&telegram, &self.splitter).filter(|_| !facts.column);
+            let Some(reading) = reading else { return false };
+            self.add_weak(index, &telegram, 0, facts, Some(reading));
+            return true;
+        }
+        let text = bytes.trim_ascii();
+        if text.len() < 8 || text.len() % 2 == 1 || !text.iter().all(u8::is_ascii_hexdigit) {
+            return false;
+        }
+        let digit = |c: u8| char::from(c).to_digit(16).unwrap_or_default() as u8;
+        let telegram: Vec<u8> = text.chunks(2).map(|pair| digit(pair[0]) << 4 | digit(pair[1])).collect();
+        let mut found = Vec::new();
+        self.whole(index, &telegram, &mut found) && {
+            self.take_found(index, &telegram, 0, &found);
+            true
+        }
+    }
+
+    /// Finds the telegrams inside of a piece that are beyond doubt.
+    fn inside(&self, index: usize, bytes: &[u8], found: &mut Vec<Found>) {
+        found.clear();
+        let protocols = [&modbus_rtu::PROTOCOL, &profibus_fdl::PROTOCOL];
+        let most = protocols.into_iter().map(|protocol| (self.splitter.covered(protocol, bytes), protocol));
+        let (covered, protocol) = most.reduce(|best, other| if other.0 > best.0 { other } else { best }).unwrap_or((0, protocols[0]));
+        let mut at = 0;
+        let mut waiting = self.waiting_at(index);
+        while covered > 0 && at < bytes.len() {
+            let place = Place { bytes: &bytes[at..], last: true, in_step: false, waiting };
+            match self.splitter.begins(protocol, place) {
+                Begins::Telegram(length) => {
+                    let telegram = &bytes[at..at + length];
+                    found.push((at, at + length, protocol, (protocol.verdict)(telegram)));
+                    waiting = self.asks(telegram);
+                    at += length;
+                }
+                _ => at += 1,
+            }
+        }
+        if !found.is_empty() {
+            return;
+        }
+        // Over TCP nothing follows the last telegram.
+        let tcp = &modbus_tcp::PROTOCOL;
+        for at in 1..bytes.len().saturating_sub(modbus_tcp::HEADER) {
+            let place = Place { bytes: &bytes[at..], last: true, in_step: false, waiting: None };
+            if self.splitter.begins(tcp, place) == Begins::Telegram(bytes.len() - at) {
+                return found.push((at, bytes.len(), tcp, Verdict::NoCheck));
+            }
+        }
+        // A line that was not silent reads as FFh or 00h; behind that a check is right for all that is left.
+        let idle = bytes.iter().take_while(|byte| matches!(byte, 0 | 0xFF)).count();
+        let rest = |from: &usize| {
+            let rest = &bytes[*from..];
+            let known = rest.get(1).is_some_and(|function| function & !EXCEPTION != 0);
+            known && rest.len() > 4 && is_right(rest)
+        };
+        if let Some(from) = (idle.saturating_sub(1)..=idle).filter(|from| *from > 0).find(rest) {
+            found.push((from, bytes.len(), &modbus_rtu::PROTOCOL, Verdict::Right));
+        }
+    }
+
+    /// What waits for its response once `telegram` is sent.
+    fn asks(&self, telegram: &[u8]) -> Option<Waiting> {
+        let pdu = telegram.get(1..telegram.len().checked_sub(2)?)?;
+        let [asks, _] = self.splitter.sides(pdu);
+        asks.then(|| Waiting {
+            unit: telegram[0],
+            function: pdu[0],
+            length: self.splitter.answer_length(pdu).map(|length| (length + modbus_rtu::RTU.around()) as u16),
+        })
+    }
+
+    /// What is left of a piece besides the telegrams in it.
+    fn take_rest(&mut self, index: usize, bytes: &[u8], found: &[Found], row: Row) {
+        let said = evidence::place(&row.facts) > 0;
+        let mut at = 0;
+        let ends = found.iter().map(|(from, to, ..)| (*from, *to)).chain([(bytes.len(), bytes.len())]);
+        for (from, to) in ends {
+            if at < from && said {
+                let kept = keep(&mut self.data, &bytes[at..from]);
+                self.unframed(index, &bytes[at..from], at, kept);
+            }
+            at = to;
+        }
+    }
+
+    fn waiting_at(&self, index: usize) -> Option<Waiting> {
+        let port = usize::from(self.lanes[index].row(0).port);
+        self.waiting.get(port).copied().flatten()
+    }
+
+    /// A telegram came that needs no other piece: what was held is by itself, unless it was a part of this one.
+    fn release(&mut self, index: usize, bytes: &[u8]) {
+        let Some(held) = self.lanes[index].held.take() else { return };
+        // A buffer that grows is printed again and again. What lacked only its check was sent by itself.
+        if bytes.starts_with(&held.bytes) && !held.complete && held.age == 0 {
+            self.gone.extend(held.entries);
+        }
+    }
+
+    /// Whether a piece goes on with what is held, or is a copy of it.
+    fn goes_on(&mut self, index: usize, bytes: &[u8], row: Row) -> bool {
+        /// So many other pieces may come between.
+        const OTHERS: usize = 8;
+        let Some(mut held) = self.lanes[index].held.take() else { return false };
+        if held.bytes[held.latest..] == *bytes || held.bytes == bytes {
+            self.lanes[index].held = Some(held);
+            return true;
+        }
+        if bytes.starts_with(&held.bytes) {
+            self.lanes[index].held = Some(held);
+            return false;
+        }
+        let apart = held.rows.last().is_some_and(|last| {
+            let timed = row.time != NO_TIME && last.time != NO_TIME;
+            timed && !(0..=PAUSE).contains(&(row.time - last.time))
+        });
+        if apart {
+            return false;
+        }
+        let length = held.bytes.len();
+        let joined = [held.bytes.as_slice(), bytes].concat();
+        let rest = &joined[held.from..];
+        let mut found = Vec::new();
+        let whole = self.whole(index, rest, &mut found);
+        if whole || self.is_beginning(index, rest) && row.facts.shape == held.rows[0].facts.shape {
+            let rows = self.lanes[index].rows.iter().map(|row| Row { from: row.from + length as isize, ..*row });
+            held.rows.extend(rows);
+            if whole {
+                self.gone.extend(&held.entries);
+                self.shapes.count(held.rows[0].facts.shape, true);
+                self.lanes[index].rows = held.rows;
+                self.take_found(index, rest, held.from, &found);
+                self.note_pause(index);
+            } else {
+                (held.latest, held.bytes, held.age) = (length, joined, 0);
+                self.lanes[index].held = Some(held);
+            }
+            return true;
+        }
+        held.age += 1;
+        if held.age <= OTHERS {
+            self.lanes[index].held = Some(held);
+        }
+        false
+    }
+
+    /// Whether a telegram that begins so is longer.
+    fn is_beginning(&self, index: usize, bytes: &[u8]) -> bool {
+        let [unit, function, ..] = *bytes else { return false };
+        let awaited = self.waiting_at(index).is_some_and(|it| (it.unit, it.function) == (unit, function));
+        let rtu = unit <= 247 && self.splitter.is_beginning(bytes);
+        let fdl = profibus_fdl::Fdl::length(bytes).is_some_and(|length| length > bytes.len())
+            && bytes.len() > 3 && bytes[0] == profibus_fdl::SD2;
+        let tcp = Place { bytes, last: false, in_step: true, waiting: None };
+        let tcp = bytes.len() > 5 && self.splitter.begins(&modbus_tcp::PROTOCOL, tcp) == Begins::More;
+        bytes.len() < modbus_rtu::RTU.longest() && (rtu || fdl || tcp || (awaited && !self.splitter.knows(function)))
+    }
+
+    /// A piece without a telegram that is beyond doubt: what it most likely is, to be judged when all of the
+    /// text is known; and it may go on.
+    fn unproven(&mut self, index: usize, bytes: &[u8], decimal: &[u8], breaks: &[usize], row: Row) {
+        /// What may come before a telegram: the line was not silent when it was switched.
+        const STRAY: usize = 2;
+        let facts = row.facts;
+        self.shapes.count(facts.shape, false);
+        if bytes.len() > LONGEST {
+            return self.passed.push((row.line, row.offset));
+        }
+        let parts = breaks.iter().copied().map(|from| &bytes[from..]);
+        let readings = [bytes, decimal].into_iter().chain(parts).filter(|part| !part.is_empty());
+        let waiting = self.waiting_at(index);
+        let best = readings
+            .map(|part| (part, evidence::reading(part, &self.splitter, waiting)))
+            .reduce(|best, other| if bits(&other.1) > bits(&best.1) { other } else { best });
+        let Some((part, reading)) = best else { return };
+        let from = if part.len() < bytes.len() { bytes.len() - part.len() } else { 0 };
+        let before = self.entries.len();
+        let begins = |from: &usize| bytes.get(*from..).is_some_and(|rest| self.is_beginning(index, rest));
+        let awaited = |from: &usize| {
+            let rest = &bytes[*from..];
+            *from == 0 || waiting.is_some_and(|it| rest.starts_with(&[it.unit, it.function]))
+        };
+        let begins = (0..=STRAY.min(bytes.len())).filter(begins).find(awaited);
+        self.add_weak(index, part, from, &facts, reading);
+        if let Some(from) = begins.filter(|_| !facts.abridged) {
+            let entry = (self.entries.len() > before).then_some(before as u32);
+            let rows = self.lanes[index].rows.clone();
+            let lane = &mut self.lanes[index];
+            let grows = lane.held.take().filter(|held| bytes.starts_with(&held.bytes) && held.age == 0);
+            let entries = grows.into_iter().flat_map(|held| held.entries).chain(entry).collect();
+            let complete = reading.is_some_and(|reading| !reading.cut);
+            lane.held = Some(Held { bytes: bytes.to_vec(), rows, from, latest: 0, entries, complete, age: 0 });
+        }
+    }
+
+    /// What bytes are as a service of PROFIBUS without its frame.
+    fn bare_profibus(&self, bytes: &[u8]) -> Option<Reading> {
+        let bare = PROTOCOLS.iter().copied().filter(|protocol| !matches!(protocol.speaker, Speaker::Pdu(_) | Speaker::Frame(_)));
+        let fits = bare.map(|protocol| ((protocol.fit)(bytes, &self.settings).bits as i32, protocol));
+        let (bits, protocol) = fits.filter(|(bits, _)| *bits > 0).reduce(|best, other| if other.0 > best.0 { other } else { best })?;
+        Some(Reading { protocol, verdict: Verdict::NoCheck, from: 0, bits, cut: false })
+    }
+
+    /// Adds an entry that is to be judged.
+    fn add_weak(&mut self, index: usize, bytes: &[u8], from: usize, facts: &Facts, reading: Option<Reading>) {
+        let reading = reading.or_else(|| self.bare_profibus(bytes));
+        let (protocol, verdict) = match &reading {
+            Some(reading) => (reading.protocol, reading.verdict),
+            None if has_length(bytes) => (&modbus_rtu::PROTOCOL, Verdict::Wrong),
+            None => (&modbus_rtu::PROTOCOL, Verdict::Unchecked),
+        };
+        let stray = reading.as_ref().map_or(0, |reading| reading.from);
+        let before = self.entries.len();
+        self.add(index, &bytes[stray..], from + stray, protocol, verdict);
+        if self.entries.len() == before {
+            return;
+        }
+        if reading.is_some_and(|reading| reading.cut) {
+            // Requests are short: what is cut is a response.
+            self.entries[before].sides = [false, true];
+        }
+        if bits(&reading) > 8 {
+            self.shapes.look_alike(facts.shape);
+        }
+        self.weak.push(Weak {
+            entry: before as u32,
+            bits: bits(&reading) + evidence::place(facts),
+            read: reading.is_some(),
+            cut: reading.is_some_and(|reading| reading.cut),
+            facts: *facts,
+        });
+        debug_assert!(self.entries[before].role == Role::Plain);
+    }
+}
+
+fn bits(reading: &Option<Reading>) -> i32 {
+    reading.as_ref().map_or(0, |reading| reading.bits)
+}

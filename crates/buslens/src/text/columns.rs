@@ -1,0 +1,107 @@
+//! Telegrams that stand across lines: one byte a line with words, an index or its character beside it, or one
+//! field a row of a table.
+//!
+//! The lines of a block that have a byte or two each are read down: cell by cell where bars part them, else
+//! number by number, counted from the beginning and from the end of the line. What comes out of a column is
+//! only a telegram if its check is right.
+
+use super::line::Scan;
+use crate::field::Span;
+
+/// The columns of the lines in hand.
+#[derive(Debug, Default)]
+pub(super) struct Columns {
+    lines: usize,
+    columns: Vec<Column>,
+    /// Where the first line of the block begins in the file.
+    offset: u64,
+    line: u32,
+}
+
+/// Bytes below each other.
+#[derive(Debug)]
+pub(super) struct Column {
+    key: Key,
+    pub bytes: Vec<u8>,
+    pub decimal: Vec<u8>,
+    /// Counted from the beginning of the block.
+    pub places: Vec<Span>,
+}
+
+/// Which column of its line a number is in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Key {
+    /// Behind so many bars.
+    Cell(usize),
+    FromStart(usize),
+    FromEnd(usize),
+}
+
+/// A block with more lines is read in parts.
+const MOST_LINES: usize = 600;
+
+/// A line with more numbers is no row of a table with one field each.
+const MOST_NUMBERS: usize = 8;
+
+impl Columns {
+    /// Takes a line, if it can be one of a block.
+    pub fn take(&mut self, text: &[u8], scan: &Scan, line: u32, offset: u64) -> bool {
+        let count = scan.hex.len();
+        let bars = text.iter().filter(|c| **c == b'|').count();
+        let table = bars > 1;
+        if (count == 0 && !table) || count > MOST_NUMBERS || self.lines >= MOST_LINES {
+            return false;
+        }
+        if self.lines == 0 {
+            (self.offset, self.line) = (offset, line);
+        }
+        self.lines += 1;
+        let base = (offset - self.offset) as usize;
+        let mut cell = 0;
+        let mut seen = 0;
+        for run in &scan.runs {
+            for at in run.first..run.end {
+                let place = scan.places[at];
+                let value = (scan.hex[at], scan.decimal.get(at).copied().unwrap_or_default());
+                if table {
+                    cell += text[seen..place.from].iter().filter(|c| **c == b'|').count();
+                    seen = place.from;
+                    self.add(Key::Cell(cell), value, place.shifted(base));
+                } else {
+                    self.add(Key::FromStart(at), value, place.shifted(base));
+                    if count > 1 {
+                        self.add(Key::FromEnd(count - 1 - at), value, place.shifted(base));
+                    }
+                }
+            }
+        }
+        true
+    }
+
+    fn add(&mut self, key: Key, (hex, decimal): (u8, u8), place: Span) {
+        let column = match self.columns.iter_mut().find(|column| column.key == key) {
+            Some(column) => column,
+            None => {
+                self.columns.push(Column { key, bytes: Vec::new(), decimal: Vec::new(), places: Vec::new() });
+                self.columns.last_mut().expect("one was added")
+            }
+        };
+        column.bytes.push(hex);
+        column.decimal.push(decimal);
+        column.places.push(place);
+    }
+
+    /// The block ends: its columns, with the number and the place of its first line.
+    pub fn end(&mut self) -> (u32, u64, Vec<Column>) {
+        /// Every telegram has at least so many bytes.
+        const SHORTEST: usize = 4;
+        let lines = std::mem::take(&mut self.lines);
+        let mut columns = std::mem::take(&mut self.columns);
+        columns.retain(|column| lines >= SHORTEST && column.bytes.len() >= SHORTEST);
+        (self.line, self.offset, columns)
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.lines == 0
+    }
+}

@@ -1,0 +1,227 @@
+//! Words and signs around bytes: who speaks, what is spoken of, what was thrown away.
+
+use crate::field::Direction;
+
+/// What a line says of who speaks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sender {
+    /// It calls the telegram a request or a response.
+    Says(Direction),
+    /// The writer of the log sent it: whether that one asks or answers, the telegrams tell.
+    Logger,
+    /// The writer of the log received it.
+    Other,
+}
+
+/// How much a word says. A function's name may have a weak one in it: "read holding registers".
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Weight {
+    Weak,
+    Strong,
+}
+
+/// What a word is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum About {
+    Sender(Sender, Weight),
+    /// Bytes that stand near it are likely to be a telegram: "frame", "CRC".
+    Telegrams,
+    /// Bytes that stand near it are what was left over, not a telegram: "discarded".
+    Leftovers,
+}
+
+use Direction::{Request, Response};
+use Sender::{Logger, Other, Says};
+use Weight::{Strong, Weak};
+
+/// In the order of their first letters.
+static WORDS: &[(&str, About)] = &[
+    ("abfrage", said(Says(Request), Strong)),
+    ("adu", About::Telegrams),
+    ("anfrage", said(Says(Request), Strong)),
+    ("answer", said(Says(Response), Strong)),
+    ("answered", said(Says(Response), Strong)),
+    ("answers", said(Says(Response), Strong)),
+    ("antwort", said(Says(Response), Strong)),
+    ("antwortet", said(Says(Response), Strong)),
+    ("ask", said(Says(Request), Strong)),
+    ("asks", said(Says(Request), Strong)),
+    ("buffer", About::Telegrams),
+    ("bytes", About::Telegrams),
+    ("check", About::Telegrams),
+    ("checksum", About::Telegrams),
+    ("client", said(Says(Request), Weak)),
+    ("cmd", said(Says(Request), Weak)),
+    ("command", said(Says(Request), Weak)),
+    ("crc", About::Telegrams),
+    ("discarded", About::Leftovers),
+    ("discarding", About::Leftovers),
+    ("dropped", About::Leftovers),
+    ("dropping", About::Leftovers),
+    ("empfangen", said(Other, Strong)),
+    ("empfang", said(Other, Strong)),
+    ("flush", About::Leftovers),
+    ("flushed", About::Leftovers),
+    ("flushing", About::Leftovers),
+    ("frame", About::Telegrams),
+    ("garbage", About::Leftovers),
+    ("gesendet", said(Logger, Strong)),
+    ("hex", About::Telegrams),
+    ("ignored", About::Leftovers),
+    ("ignoring", About::Leftovers),
+    ("in", said(Other, Weak)),
+    ("input", said(Other, Weak)),
+    ("junk", About::Leftovers),
+    ("leftover", About::Leftovers),
+    ("leftovers", About::Leftovers),
+    ("lrc", About::Telegrams),
+    ("master", said(Says(Request), Weak)),
+    ("message", About::Telegrams),
+    ("modbus", About::Telegrams),
+    ("out", said(Logger, Weak)),
+    ("output", said(Logger, Weak)),
+    ("packet", About::Telegrams),
+    ("payload", About::Telegrams),
+    ("pdu", About::Telegrams),
+    ("query", said(Says(Request), Strong)),
+    ("raw", About::Telegrams),
+    ("read", said(Other, Weak)),
+    ("reading", said(Other, Weak)),
+    ("receive", said(Other, Strong)),
+    ("received", said(Other, Strong)),
+    ("receiving", said(Other, Strong)),
+    ("recv", said(Other, Strong)),
+    ("recd", said(Other, Strong)),
+    ("reply", said(Says(Response), Strong)),
+    ("replies", said(Says(Response), Strong)),
+    ("req", said(Says(Request), Strong)),
+    ("request", said(Says(Request), Strong)),
+    ("requests", said(Says(Request), Strong)),
+    ("resp", said(Says(Response), Strong)),
+    ("response", said(Says(Response), Strong)),
+    ("responds", said(Says(Response), Strong)),
+    ("rx", said(Other, Strong)),
+    ("rxd", said(Other, Strong)),
+    ("send", said(Logger, Strong)),
+    ("sende", said(Logger, Strong)),
+    ("sending", said(Logger, Strong)),
+    ("sends", said(Logger, Strong)),
+    ("sent", said(Logger, Strong)),
+    ("server", said(Says(Response), Weak)),
+    ("slave", said(Says(Response), Weak)),
+    ("skipped", About::Leftovers),
+    ("skipping", About::Leftovers),
+    ("stale", About::Leftovers),
+    ("telegram", About::Telegrams),
+    ("telegramm", About::Telegrams),
+    ("thrown", About::Leftovers),
+    ("transmit", said(Logger, Strong)),
+    ("transmitted", said(Logger, Strong)),
+    ("tx", said(Logger, Strong)),
+    ("txd", said(Logger, Strong)),
+    ("unexpected", About::Leftovers),
+    ("write", said(Logger, Weak)),
+    ("writing", said(Logger, Weak)),
+    ("written", said(Logger, Strong)),
+    ("wrote", said(Logger, Weak)),
+];
+
+/// Words and signs of scripts that have no capital letters: each ends where the next one begins.
+static SIGNS: &[(&str, About)] = &[
+    ("→", said(Logger, Strong)),
+    ("←", said(Other, Strong)),
+    ("⇒", said(Logger, Strong)),
+    ("⇐", said(Other, Strong)),
+    ("发送", said(Logger, Strong)),
+    ("發送", said(Logger, Strong)),
+    ("接收", said(Other, Strong)),
+    ("请求", said(Says(Request), Strong)),
+    ("响应", said(Says(Response), Strong)),
+    ("发", said(Logger, Strong)),
+    ("發", said(Logger, Strong)),
+    ("收", said(Other, Strong)),
+    ("送信", said(Logger, Strong)),
+    ("受信", said(Other, Strong)),
+    ("要求", said(Says(Request), Strong)),
+    ("応答", said(Says(Response), Strong)),
+];
+
+const fn said(sender: Sender, weight: Weight) -> About {
+    About::Sender(sender, weight)
+}
+
+/// Where in [`WORDS`] the words of each first letter begin; the last one is where all end.
+static FIRST: [u8; 27] = {
+    let mut first = [0; 27];
+    let (mut letter, mut at) = (0, 0);
+    while letter < 27 {
+        while at < WORDS.len() && WORDS[at].0.as_bytes()[0] < b'a' + letter as u8 {
+            at += 1;
+        }
+        first[letter] = at as u8;
+        letter += 1;
+    }
+    first
+};
+
+/// What `word` is about, in whatever letters it is written.
+pub fn word(word: &[u8]) -> Option<About> {
+    const LONGEST: usize = 11;
+    if !(2..=LONGEST).contains(&word.len()) {
+        return None;
+    }
+    let letter = usize::from(word[0].to_ascii_lowercase().checked_sub(b'a').filter(|letter| *letter < 26)?);
+    let same = &WORDS[usize::from(FIRST[letter])..usize::from(FIRST[letter + 1])];
+    same.iter().find(|(known, _)| known.as_bytes().eq_ignore_ascii_case(word)).map(|(_, about)| *about)
+}
+
+/// What the sign that begins at `at` is about, and where it ends.
+pub fn sign(line: &[u8], at: usize) -> Option<(About, usize)> {
+    let found = SIGNS.iter().find(|(sign, _)| line[at..].starts_with(sign.as_bytes()));
+    found.map(|(sign, about)| (*about, at + sign.len()))
+}
+
+/// What the arrow that begins at `at` says, and where it ends: `->`, `<-`, `>>>`, `<<`, `=>`.
+pub fn arrow(line: &[u8], at: usize) -> Option<(Sender, usize)> {
+    let rest = &line[at..];
+    let run = |c: u8| rest.iter().take_while(|other| **other == c).count();
+    match rest {
+        [b'-' | b'=', b'>', ..] => Some((Logger, at + 2)),
+        [b'-', b'-', b'>', ..] => Some((Logger, at + 3)),
+        [b'<', b'-' | b'=', ..] => Some((Other, at + 1 + 1)),
+        [b'>', b'>', ..] => Some((Logger, at + run(b'>'))),
+        [b'<', b'<', ..] => Some((Other, at + run(b'<'))),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_in_any_letters() {
+        assert_eq!(word(b"TX"), Some(said(Logger, Strong)));
+        assert_eq!(word(b"Response"), Some(said(Says(Response), Strong)));
+        assert_eq!(word(b"reads"), None);
+        assert_eq!(word("é".as_bytes()), None);
+        for (known, about) in WORDS {
+            assert_eq!(word(known.as_bytes()), Some(*about), "{known}");
+        }
+    }
+
+    #[test]
+    fn signs_of_other_scripts() {
+        assert_eq!(sign("→ 01".as_bytes(), 0), Some((said(Logger, Strong), 3)));
+        assert_eq!(sign("发送 01".as_bytes(), 0), Some((said(Logger, Strong), 6)));
+        assert_eq!(sign("你".as_bytes(), 0), None);
+    }
+
+    #[test]
+    fn arrows() {
+        assert_eq!(arrow(b">>> 01", 0), Some((Logger, 3)));
+        assert_eq!(arrow(b"x <- 01", 2), Some((Other, 4)));
+        assert_eq!(arrow(b"> 01", 0), None);
+        assert_eq!(arrow(b"<01><03>", 0), None);
+    }
+}
