@@ -100,6 +100,7 @@ pub fn company(pieces: usize, proven: usize, alike: usize) -> i32 {
 pub fn reading(bytes: &[u8], splitter: &Splitter, waiting: Option<Waiting>) -> Option<Reading> {
     let readings = [
         damaged(bytes, splitter),
+        awaited(bytes, waiting),
         unchecked(bytes, splitter),
         pdu(bytes, splitter),
         cut(bytes, splitter, waiting),
@@ -114,14 +115,43 @@ pub fn ascii(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
     /// The colon, and digits only behind it.
     const COLON: i32 = 10;
     let pdu = modbus_ascii::ASCII.pdu_bytes(bytes);
-    let bits = COLON + unit(*bytes.first()?) + structure(pdu, splitter)? + WRONG;
+    let fits = structure(pdu, splitter).or_else(|| splitter.knows(*bytes.get(1)?).then_some(0));
+    let bits = COLON + unit(*bytes.first()?) + fits? + WRONG;
     Some(Reading { protocol: &modbus_ascii::PROTOCOL, verdict: Verdict::Wrong, from: 0, bits, cut: false })
 }
 
 fn damaged(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
     let pdu = modbus_rtu::RTU.pdu_bytes(bytes);
     let bits = unit(*bytes.first()?) + structure(pdu, splitter)? + WRONG;
-    Some(Reading { protocol: &modbus_rtu::PROTOCOL, verdict: Verdict::Wrong, from: 0, bits, cut: false })
+    Some(Reading {
+        protocol: &modbus_rtu::PROTOCOL,
+        verdict: verdict(&modbus_rtu::PROTOCOL, bytes),
+        from: 0,
+        bits,
+        cut: false,
+    })
+}
+
+/// A response that is awaited, whatever is wrong with it: unit and function are those of the request.
+fn awaited(bytes: &[u8], waiting: Option<Waiting>) -> Option<Reading> {
+    let waiting = waiting?;
+    let longest = waiting.length.map_or(modbus_rtu::RTU.longest(), |length| usize::from(length) + 4);
+    let begins =
+        matches!(bytes, [unit, code, ..] if *unit == waiting.unit && code & !EXCEPTION == waiting.function);
+    let bits = CONVERSATION + function(waiting.function) + WRONG;
+    let fits = begins && (modbus_rtu::RTU.shortest()..=longest).contains(&bytes.len());
+    fits.then(|| Reading {
+        protocol: &modbus_rtu::PROTOCOL,
+        verdict: verdict(&modbus_rtu::PROTOCOL, bytes),
+        from: 0,
+        bits,
+        cut: false,
+    })
+}
+
+/// What its check says of bytes that are read as of `protocol`.
+fn verdict(protocol: &Protocol, bytes: &[u8]) -> Verdict {
+    (protocol.verdict)(bytes)
 }
 
 fn unchecked(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
@@ -139,7 +169,13 @@ fn pdu(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
     const SHORTEST: usize = 5;
     let bits = structure(bytes, splitter).filter(|_| bytes.len() >= SHORTEST)?;
     // Whatever could be a PDU is more likely one with its unit.
-    Some(Reading { protocol: &modbus_pdu::PROTOCOL, verdict: Verdict::NoCheck, from: 0, bits: bits - 1, cut: false })
+    Some(Reading {
+        protocol: &modbus_pdu::PROTOCOL,
+        verdict: Verdict::NoCheck,
+        from: 0,
+        bits: bits - 1,
+        cut: false,
+    })
 }
 
 /// A telegram whose end is missing: the request that waits tells it, or its byte count.
@@ -148,10 +184,11 @@ fn cut(bytes: &[u8], splitter: &Splitter, waiting: Option<Waiting>) -> Option<Re
     const STRAY: usize = 2;
     if let Some(waiting) = waiting {
         let awaited = |from: &usize| {
+            let own = &bytes[*from..];
             let length = waiting.length.map_or(usize::MAX, usize::from);
-            let begins = bytes[*from..].starts_with(&[waiting.unit, waiting.function]);
-            let fits = splitter.rtu_lengths(&bytes[*from..])[1].is_none_or(|own| own == length);
-            begins && fits && bytes.len() - from < length
+            let begins = own.starts_with(&[waiting.unit, waiting.function]);
+            let fits = splitter.rtu_lengths(own)[1].is_none_or(|own| own == length);
+            begins && fits && own.len() < length && is_cut(own, length - own.len(), *from > 0)
         };
         if let Some(from) = (0..=STRAY.min(bytes.len().saturating_sub(2))).find(awaited) {
             let bits = CONVERSATION + function(waiting.function);
@@ -165,15 +202,19 @@ fn cut(bytes: &[u8], splitter: &Splitter, waiting: Option<Waiting>) -> Option<Re
     if code & EXCEPTION != 0 || !even || count == 0 || count > 250 || !matches!(code, 1..=4 | 23 | 100) {
         return None;
     }
-    // The last byte of the check is missing: the first one tells.
-    let check = if missing == 1 {
+    let check = if missing == 1 { 8 } else { 0 };
+    is_cut(bytes, missing, false)
+        .then(|| without_check(0, unit(first) + function(code) + 1 + check + CUT, true))
+}
+
+/// Whether so many bytes are missing at the end of a telegram, and not somewhere within it: where most of the
+/// check is there, it tells; so does a byte too many in front, which pushed the last one out.
+fn is_cut(bytes: &[u8], missing: usize, stray: bool) -> bool {
+    let last_tells = || {
         let (last, covered) = bytes.split_last()?;
-        let right = CRC_16_MODBUS.wire(covered) >> 8 == u64::from(*last);
-        if right { 8 } else { return None }
-    } else {
-        0
+        Some(CRC_16_MODBUS.wire(covered) >> 8 == u64::from(*last))
     };
-    Some(without_check(0, unit(first) + function(code) + 1 + check + CUT, true))
+    stray || missing > 2 || (missing == 1 && last_tells() == Some(true))
 }
 
 /// A frame of Modbus TCP whose length is wrong.
@@ -201,13 +242,18 @@ fn over_profibus(bytes: &[u8]) -> Option<Reading> {
     let reading = |bits, verdict, cut| Some(Reading { protocol: &PROTOCOL, verdict, from: 0, bits, cut });
     let ends = bytes.last() == Some(&profibus_fdl::END);
     match (bytes, Fdl::length(bytes)) {
-        ([SD2, a, b, SD2, ..], Some(length)) if a == b && length == bytes.len() => reading(24 + WRONG, Verdict::Wrong, false),
-        ([SD2, a, b, SD2, ..], Some(length)) if a == b && length > bytes.len() && !ends => {
-            reading(16 + CUT, Verdict::Unchecked, true)
+        ([SD2, a, b, SD2, ..], Some(length)) if a == b && length == bytes.len() => {
+            reading(24 + WRONG, verdict(&PROTOCOL, bytes), false)
         }
-        ([SD2, _, _, SD2, ..], _) if ends => reading(20 + WRONG, Verdict::Wrong, false),
+        ([SD2, a, b, SD2, ..], Some(length)) if a == b && length > bytes.len() && !ends => {
+            let checked = verdict(&PROTOCOL, bytes) == Verdict::Right;
+            reading(16 + CUT, if checked { Verdict::Right } else { Verdict::Unchecked }, true)
+        }
+        ([SD2, _, _, SD2, ..], _) if ends => reading(20 + WRONG, verdict(&PROTOCOL, bytes), false),
         ([profibus_fdl::SC], _) => reading(8, Verdict::NoCheck, false),
-        ([profibus_fdl::SD1, ..], Some(length)) if length == bytes.len() && ends => reading(8 + WRONG, Verdict::Wrong, false),
+        ([profibus_fdl::SD1, ..], Some(length)) if length == bytes.len() && ends => {
+            reading(8 + WRONG, verdict(&PROTOCOL, bytes), false)
+        }
         _ => None,
     }
 }
@@ -235,7 +281,8 @@ pub(super) fn structure(pdu: &[u8], splitter: &Splitter) -> Option<i32> {
     if !asks && !answers {
         return None;
     }
-    let number = |at: usize| pdu.get(at..at + 2).map_or(0, |word| u32::from(u16::from_be_bytes([word[0], word[1]])));
+    let number =
+        |at: usize| pdu.get(at..at + 2).map_or(0, |word| u32::from(u16::from_be_bytes([word[0], word[1]])));
     let can_be = |most: u32, bits: i32| {
         let quantity = number(3);
         if (1..=most).contains(&quantity) && number(1) + quantity <= 1 << 16 { bits } else { UNLIKELY }
@@ -245,7 +292,13 @@ pub(super) fn structure(pdu: &[u8], splitter: &Splitter) -> Option<i32> {
         1 | 2 => can_be(2000, switches),
         3 | 4 => can_be(125, registers),
         100 => can_be(62, registers),
-        5 => if matches!(pdu.get(3..5), Some([0 | 0xFF, 0])) { 15 } else { UNLIKELY },
+        5 => {
+            if matches!(pdu.get(3..5), Some([0 | 0xFF, 0])) {
+                15
+            } else {
+                UNLIKELY
+            }
+        }
         6 => 0,
         15 if u32::from(pdu.get(5).copied().unwrap_or_default()) == number(3).div_ceil(8) => 16,
         16 if u32::from(pdu.get(5).copied().unwrap_or_default()) == 2 * number(3) => 16,
@@ -259,10 +312,18 @@ pub(super) fn structure(pdu: &[u8], splitter: &Splitter) -> Option<i32> {
         16 => can_be(123, registers),
         101 => can_be(62, registers),
         code if code & EXCEPTION != 0 => {
-            if matches!(pdu.get(1), Some(1..=6 | 8 | 10 | 11 | 64..=67)) { 4 } else { UNLIKELY }
+            if matches!(pdu.get(1), Some(1..=6 | 8 | 10 | 11 | 64..=67)) {
+                4
+            } else {
+                UNLIKELY
+            }
         }
         _ => of_request,
     };
-    let best = [(asks, of_request), (answers, of_response)].into_iter().filter(|(fits, _)| *fits).map(|(_, bits)| bits).max();
+    let best = [(asks, of_request), (answers, of_response)]
+        .into_iter()
+        .filter(|(fits, _)| *fits)
+        .map(|(_, bits)| bits)
+        .max();
     Some(function(code) + best.unwrap_or_default())
 }

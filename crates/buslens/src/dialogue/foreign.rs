@@ -75,7 +75,10 @@ mod tests {
         assert_eq!(named(&[0x55, 0xFF, 0, 7, 3, 0, 0, 0xEB]), Some("BACnet MS/TP"));
         assert_eq!(named(b"\x0401G220701\x05"), Some("DIN 66019"));
         assert_eq!(named(b"\x02G0003\x037"), Some("DIN 66019"));
-        assert_eq!(named(&[0xAA, 0x55, 1, 0, 0, 0x0B, 0x11, 4, 0, 1, 0x20]), Some("the AA 55 protocol of inverters"));
+        assert_eq!(
+            named(&[0xAA, 0x55, 1, 0, 0, 0x0B, 0x11, 4, 0, 1, 0x20]),
+            Some("the AA 55 protocol of inverters")
+        );
         assert_eq!(named(b"~20014642\r"), Some("a text protocol (~ … CR)"));
         assert_eq!(named(&[1, 3, 0, 200, 0, 3, 0x84, 0x35]), None);
         assert_eq!(named(&[0x10, 2, 1, 0x49, 0x4C, 0x16]), None, "PROFIBUS");

@@ -234,8 +234,13 @@ impl Splitter {
         // The header tells that it is a telegram, whatever its function; but then it ends where the bytes do, or
         // another header follows.
         if !known {
-            let next_is_zero = bytes[length..].iter().skip(2).take(2).all(|byte| *byte == 0);
-            return if next_is_zero { Begins::Telegram(length) } else { Begins::Nothing };
+            let next = &bytes[length..];
+            let next_is_zero = next.iter().skip(2).take(2).all(|byte| *byte == 0);
+            return match next_is_zero {
+                true if last || next.len() >= 4 => Begins::Telegram(length),
+                true => more,
+                false => Begins::Nothing,
+            };
         }
         let fits = self.sides(&bytes[modbus_tcp::HEADER..length]) != [false, false];
         if fits || place.in_step { Begins::Telegram(length) } else { Begins::Nothing }

@@ -43,8 +43,12 @@ impl Dump {
         }
         let mut at = first;
         while at < line.len().min(FAR) {
-            at += line[at..].iter().take_while(|c| !c.is_ascii_whitespace()).count();
+            let before = at;
+            at += line[at..].iter().take_while(|c| !mark(c)).count();
             at += line[at..].iter().take_while(|c| mark(c)).count();
+            if at == before {
+                break;
+            }
             if let Some(row) = line.get(at).and_then(|_| self.row_at(line, at, false)) {
                 return Some(row);
             }

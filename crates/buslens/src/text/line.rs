@@ -188,6 +188,8 @@ impl Scan {
         self.hex_only = numbers == Some(Numbers::Hex);
         self.in_row = from > 0;
         let mut at = from;
+        let first =
+            line[from.min(line.len())..].iter().take_while(|c| c.is_ascii_whitespace()).count() + from;
         while at < line.len() {
             at = self.same_again(line, at, numbers);
             let Some(c) = line.get(at).copied() else { break };
@@ -201,6 +203,7 @@ impl Scan {
                         self.arrow = Some(sender == Sender::Other);
                         to
                     }
+                    None if at == first && matches!(c, b'<' | b'>') => self.points(line, at),
                     None if c == b'-' && self.is_negative(line, at) => self.negative(line, at),
                     None => at + 1,
                 },
@@ -221,6 +224,17 @@ impl Scan {
             };
         }
         self.close();
+    }
+
+    /// `>` or `<` at the beginning of a line, unless it is a bracket around a byte: `<01><03>`.
+    fn points(&mut self, line: &[u8], at: usize) -> usize {
+        let word = word_end(line, at + 1);
+        if line.get(word) != Some(&b'>') {
+            let sender = if line[at] == b'>' { Sender::Logger } else { Sender::Other };
+            self.say(sender, Weight::Weak);
+            self.words -= 1;
+        }
+        at + 1
     }
 
     /// A sign or letter of another script than ours: it parts words and bytes.
@@ -286,13 +300,7 @@ impl Scan {
                 _ => return self.close(),
             }
             if count > 0 {
-                self.join(
-                    line,
-                    at,
-                    at + count,
-                    first,
-                    PLAIN,
-                );
+                self.join(line, at, at + count, first, PLAIN);
             }
             at += count.max(1);
         }
@@ -305,8 +313,12 @@ impl Scan {
     fn same_again(&mut self, line: &[u8], mut at: usize, numbers: Option<Numbers>) -> usize {
         let Some(run) = &mut self.open else { return at };
         let width = run.gap;
-        let known =
-            run.since >= 2 && run.hex && !run.marked && !run.single && run.span.to == at && (1..=2).contains(&width);
+        let known = run.since >= 2
+            && run.hex
+            && !run.marked
+            && !run.single
+            && run.span.to == at
+            && (1..=2).contains(&width);
         if !known || numbers == Some(Numbers::Decimal) {
             return at;
         }
@@ -467,7 +479,10 @@ impl Scan {
         let blank = self.open.as_ref().is_none_or(|run| separator(&line[run.span.to..at]) == Some(b' '));
         let typing = hex == text.len() && hex > 2 && self.words == 0 && self.time.is_none() && blank;
         // Of a long number of which little is wrong, the good pairs are read.
-        let nearly = text.len() >= 6 && (text.len() - hex) * 4 < text.len() && (1..=2).contains(&(text.len() - hex)) && self.words == 0;
+        let nearly = text.len() >= 6
+            && (text.len() - hex) * 4 < text.len()
+            && (1..=2).contains(&(text.len() - hex))
+            && self.words == 0;
         if (typing || nearly) && is_digit(text[0]) && !is_bits(text) {
             let first = self.hex.len();
             for pair in (at..to).step_by(2) {
@@ -494,7 +509,10 @@ impl Scan {
             return Some(to);
         }
         let [a, b, behind, ..] = text else { return None };
-        let glued = a.is_ascii_hexdigit() && b.is_ascii_hexdigit() && behind.is_ascii_uppercase() && !behind.is_ascii_hexdigit();
+        let glued = a.is_ascii_hexdigit()
+            && b.is_ascii_hexdigit()
+            && behind.is_ascii_uppercase()
+            && !behind.is_ascii_hexdigit();
         if separated && glued && run.tokens > 2 && run.padded && (is_digit(*a) || is_digit(*b)) {
             let first = self.hex.len();
             self.push(hex_value(&text[..2]), 0, at, at + 2);
@@ -645,7 +663,8 @@ impl Scan {
             let list = between == Some(b',') && run.separator_or(b',') == b',';
             // Long numbers in a list are a telegram each; in the rows of a dump they are words.
             let long = first - run.last >= LONG || self.hex.len() - first >= LONG;
-            let fits = !(long && between != Some(b' ')) && ((both && run.marked == kind.marked) || (list && (both || run.marked || kind.marked)));
+            let fits = !(long && between != Some(b' '))
+                && ((both && run.marked == kind.marked) || (list && (both || run.marked || kind.marked)));
             // `a 01 03`, `01 03 0`: who writes zeros before one digit writes them before each.
             let apart = between == Some(b' ') && !kind.marked && run.tokens > 0;
             let odd = apart && ((padded && run.single && run.tokens == 1) || (single && run.padded));
@@ -654,7 +673,8 @@ impl Scan {
                     (run.separator, run.gap) = (0, 0);
                 } else if run.since == 1 {
                     (run.separator, run.gap, run.second, run.second_at) = (mark, gap.len(), first, at);
-                } else if mark != run.separator && !(run.tokens == 8 && run.separator == b' ' && gap == b"-") {
+                } else if mark != run.separator && !(run.tokens == 8 && run.separator == b' ' && gap == b"-")
+                {
                     // `8: 01 03 …`: what stands between them changes behind the first one already.
                     let restart = run.since == 2;
                     let place = if restart { run.second } else { first };
@@ -691,7 +711,15 @@ impl Scan {
         self.begin(line, at, to, first, kind, (single, padded));
     }
 
-    fn begin(&mut self, line: &[u8], at: usize, to: usize, first: usize, kind: Kind, (single, padded): (bool, bool)) {
+    fn begin(
+        &mut self,
+        line: &[u8],
+        at: usize,
+        to: usize,
+        first: usize,
+        kind: Kind,
+        (single, padded): (bool, bool),
+    ) {
         let before = |back: usize| at.checked_sub(back).map(|place| line[place]);
         let colon = before(1) == Some(b':') && !before(2).is_some_and(|c| c.is_ascii_alphanumeric());
         let sender = self.strong.map(|sender| (sender, Weight::Strong));
@@ -851,7 +879,23 @@ impl Scan {
             if line[to] == b'\\' {
                 let next = line.get(to + 1).copied().unwrap_or_default();
                 escaped |= matches!(next, b'x' | b'X' | b'0'..=b'7' | b't' | b'n' | b'r');
-                path |= !matches!(next, b'x' | b'X' | b'0'..=b'9' | b't' | b'n' | b'r' | b'a' | b'b' | b'v' | b'f' | b'e' | b'u' | b'\\' | b'"' | b'\'');
+                path |= !matches!(
+                    next,
+                    b'x' | b'X' | b'0'
+                        ..=b'9'
+                            | b't'
+                            | b'n'
+                            | b'r'
+                            | b'a'
+                            | b'b'
+                            | b'v'
+                            | b'f'
+                            | b'e'
+                            | b'u'
+                            | b'\\'
+                            | b'"'
+                            | b'\''
+                );
                 to += 1;
             }
             to += 1;
@@ -889,8 +933,13 @@ impl Scan {
             let mut column = &text[from..];
             let mut shown = bytes.iter();
             while let Some(c) = column.first() {
-                let length = if *c < 0x80 { 1 } else { 1 + column[1..].iter().take(3).take_while(|c| (0x80..0xC0).contains(*c)).count() };
-                let same = |byte: &u8| c == byte || (!matches!(byte, b'!'..=b'~') && (*c == b'.' || *c >= 0x80));
+                let length = if *c < 0x80 {
+                    1
+                } else {
+                    1 + column[1..].iter().take(3).take_while(|c| (0x80..0xC0).contains(*c)).count()
+                };
+                let same =
+                    |byte: &u8| c == byte || (!matches!(byte, b'!'..=b'~') && (*c == b'.' || *c >= 0x80));
                 if !shown.next().is_some_and(same) {
                     return false;
                 }
@@ -946,8 +995,8 @@ fn separator(gap: &[u8]) -> Option<u8> {
         match c {
             b' ' | b'\t' => blank = true,
             b'*' | b'_' | b'~' => emphasis = if emphasis == 0 { *c } else { emphasis },
-            b',' | b';' | b':' | b'.' | b'-' | b'|' | b'/' | b'[' | b']' | b'<' | b'>' | b'"' | b'\'' | b'$'
-            | b'%' | b'#' => mark = if mark == 0 { *c } else { mark },
+            b',' | b';' | b':' | b'.' | b'-' | b'|' | b'/' | b'[' | b']' | b'<' | b'>' | b'"' | b'\''
+            | b'$' | b'%' | b'#' => mark = if mark == 0 { *c } else { mark },
             &ESCAPE => at += escape_sequence(&gap[at..]).checked_sub(1)?,
             0x80.. => {
                 at += blank_character(&gap[at..]).checked_sub(1)?;
@@ -1110,7 +1159,9 @@ mod tests {
         let mut scan = Scan::default();
         scan.read(text.as_bytes(), 0, None);
         let Some(run) = scan.runs.iter().max_by_key(|run| run.len()) else { return (String::new(), None) };
-        (hex(scan.bytes(run, Numbers::Hex)), run.sender.map(|(sender, _)| sender))
+        // What stands before the last break is something else here.
+        let from = run.breaks.of(&scan.breaks).last().map_or(0, |at| at - run.first);
+        (hex(&scan.bytes(run, Numbers::Hex)[from..]), run.sender.map(|(sender, _)| sender))
     }
 
     #[test]

@@ -269,13 +269,17 @@ impl Reader {
         self.end_list(sink);
         if self.form.flow.is_some() {
             return match flow::byte(&self.scan).copied() {
-                Some(run) => self.emit(line, &run, Context { time, joins: self.long, ..Context::default() }, sink),
+                Some(run) => {
+                    self.emit(line, &run, Context { time, joins: self.long, ..Context::default() }, sink)
+                }
                 None => self.without_bytes(line, time, sink),
             };
         }
         if let Some(row) = row {
             self.end_columns(sink);
-            let Some(run) = self.scan.runs.first().copied() else { return self.without_bytes(line, time, sink) };
+            let Some(run) = self.scan.runs.first().copied() else {
+                return self.without_bytes(line, time, sink);
+            };
             let context = Context { time, joins: row.continues, dumped: true, ..Context::default() };
             self.emit(line, &run, context, sink);
             return self.dump.read(row, run.len());
@@ -297,17 +301,26 @@ impl Reader {
             self.end_columns(sink);
         }
         let last = self.scan.runs.last().map(|run| run.span);
-        let mut given = false;
+        let (mut given, mut placed) = (false, false);
         for index in 0..self.scan.runs.len() {
             let run = self.scan.runs[index];
             let ends = Some(run.span) == last && self.scan.tail_is_plain(line, &run);
-            let short = run.len() < SHORTEST;
+            // One number in a sentence is none.
+            let number = run.tokens() == 1
+                && !run.said
+                && !run.colon
+                && !bare
+                && !run.marked
+                && !is_labelled(line, &run);
+            let short = run.len() < SHORTEST || (number && run.len() == SHORTEST);
             let two = run.span.len() > 1 || self.header.is_some();
-            let rest = short && !marked && (bare && two || run.said || ends && is_labelled(line, &run));
+            let said = run.said && run.sender.is_some_and(|(_, weight)| weight == Weight::Strong);
+            let rest = short && !marked && (bare && two || said || ends && is_labelled(line, &run));
             if short && !rest && !marked {
                 continue;
             }
             given |= !short || marked || bare;
+            placed |= bare || marked || run.said || is_labelled(line, &run);
             let context = Context { time, joins: self.long || joined, dumped: marked, bare, rest };
             self.emit(line, &run, context, sink);
         }
@@ -318,8 +331,11 @@ impl Reader {
         const ROWS: [usize; 5] = [8, 16, 20, 24, 32];
         let length = self.scan.runs.first().map_or(0, Run::len);
         match &mut self.header {
-            Some(header) if bare && (header.row == 0 || joined) && ROWS.contains(&length) => header.row = length,
-            header => *header = None,
+            Some(header) if bare && (header.row == 0 || joined) && ROWS.contains(&length) => {
+                header.row = length
+            }
+            header if placed => *header = None,
+            _ => {}
         }
     }
 
@@ -331,7 +347,8 @@ impl Reader {
         let after = scan.sender.filter(|(_, weight)| *weight == Weight::Strong && alone);
         let own = run.sender.or(after).map(|(sender, _)| sender);
         let sender = own.or(header.and_then(|header| header.sender));
-        let port = if scan.port.is_empty() { header.map_or(&[][..], |header| &header.port) } else { &scan.port };
+        let port =
+            if scan.port.is_empty() { header.map_or(&[][..], |header| &header.port) } else { &scan.port };
         let marks = form.marks.as_ref().and_then(|marks| marks.sender(line));
         breaks.clear();
         breaks.extend(run.breaks.of(&scan.breaks).iter().map(|at| at - run.first));
@@ -343,7 +360,9 @@ impl Reader {
             colon: run.colon,
             dumped: context.dumped,
             bare: context.bare,
-            said: marks.is_some() || run.said || run.sender.is_some_and(|(_, weight)| weight == Weight::Strong)
+            said: marks.is_some()
+                || run.said
+                || run.sender.is_some_and(|(_, weight)| weight == Weight::Strong)
                 || (own.is_none() && sender.is_some()),
             counted,
             of_leftovers: scan.of_leftovers || header.is_some_and(|header| header.leftovers),
@@ -357,7 +376,11 @@ impl Reader {
             places: &scan.places[run.first..run.end],
             line: self.line,
             offset: self.offset,
-            time: context.time.or(header.and_then(|header| header.time)).or(if context.dumped { self.remembered } else { None }),
+            time: context.time.or(header.and_then(|header| header.time)).or(if context.dumped {
+                self.remembered
+            } else {
+                None
+            }),
             sender: marks.or(sender),
             port: (!port.is_empty()).then_some(port),
             joins: context.joins,
@@ -376,13 +399,17 @@ impl Reader {
         let heading = line.trim_ascii_end().ends_with(b":");
         let number = self.scan.last_number(line);
         let heads = (sender.is_some() && self.scan.words <= WORDS) || heading;
-        self.drop_header(sink);
         if heads {
+            self.drop_header(sink);
             let port = self.scan.port.clone();
             let leftovers = self.scan.of_leftovers;
             let (line, offset) = (self.line, self.offset);
             self.header = Some(Header { time, sender, port, line, offset, row: 0, number, leftovers });
         } else {
+            // Another time is of something else.
+            if time.is_some() {
+                self.drop_header(sink);
+            }
             self.remembered = time;
             sink(Event::Unread { line: self.line, offset: self.offset });
         }
@@ -402,7 +429,9 @@ impl Reader {
         }
         let code = without_comment(line);
         let goes_on = code.trim_ascii_end().ends_with(b",");
-        let Some(first) = self.scan.runs.first().filter(|run| run.span.to <= code.len()) else { return false };
+        let Some(first) = self.scan.runs.first().filter(|run| run.span.to <= code.len()) else {
+            return false;
+        };
         let begins = !code[..first.span.from].iter().any(u8::is_ascii_alphanumeric);
         let last = self.scan.runs.iter().rfind(|run| run.span.to <= code.len()).unwrap_or(first);
         let ends = !code[last.span.to..].iter().any(u8::is_ascii_alphanumeric);
@@ -416,7 +445,8 @@ impl Reader {
         let code = without_comment(line);
         if self.list.bytes.is_empty() {
             self.end_columns(sink);
-            let facts = self.scan.runs.first().map_or_else(Facts::default, |run| facts(line, run, &self.scan));
+            let facts =
+                self.scan.runs.first().map_or_else(Facts::default, |run| facts(line, run, &self.scan));
             let header = self.header.take();
             self.list.sender = self.scan.sender.map(|(sender, _)| sender).or(header.and_then(|it| it.sender));
             self.list.facts = Facts { wrapped: true, said: self.list.sender.is_some(), ..facts };
@@ -434,7 +464,9 @@ impl Reader {
                 _ if run.marked => self.list.decimal.extend_from_slice(bytes),
                 _ => self.list.both = false,
             }
-            self.list.places.extend(self.scan.places[run.first..run.end].iter().map(|place| place.shifted(base)));
+            self.list
+                .places
+                .extend(self.scan.places[run.first..run.end].iter().map(|place| place.shifted(base)));
         }
         let goes_on = code.trim_ascii_end().ends_with(b",");
         if !goes_on || self.list.bytes.len() > LONGEST_LIST {
@@ -544,13 +576,15 @@ fn facts(line: &[u8], run: &Run, scan: &Scan) -> Facts {
         b'<' => b'>',
         quote => quote,
     };
-    let wrapped = matches!(lead, b'[' | b'(' | b'{' | b'<' | b'"' | b'\'' | b'`') && behind.first() == Some(&closes)
+    let wrapped = matches!(lead, b'[' | b'(' | b'{' | b'<' | b'"' | b'\'' | b'`')
+        && behind.first() == Some(&closes)
         || run.style == Style::Escaped;
     let near = &behind[..behind.len().min(ELLIPSIS)];
     let dots = behind.iter().take_while(|c| **c == b'.').count();
     let ends = behind.get(dots).is_none_or(|c| c.is_ascii_whitespace() || matches!(c, b')' | b']' | b'"'));
     let placeholder = [b"xx", b"??", b"XX"].iter().any(|sign| behind.starts_with(*sign));
-    let ellipsis = ["…".as_bytes(), "・・".as_bytes()].iter().any(|sign| memchr::memmem::find(near, sign).is_some());
+    let ellipsis =
+        ["…".as_bytes(), "・・".as_bytes()].iter().any(|sign| memchr::memmem::find(near, sign).is_some());
     let abridged = !scan.column && (((2..=4).contains(&dots) && ends) || placeholder || ellipsis);
     let shape = run.word ^ (u32::from(lead) << 24) ^ (run.style as u32 + 1).wrapping_mul(0x9E37_79B1);
     Facts {
@@ -560,7 +594,9 @@ fn facts(line: &[u8], run: &Run, scan: &Scan) -> Facts {
         of_telegrams: scan.of_telegrams,
         of_leftovers: scan.of_leftovers,
         abridged,
-        slips: scan.words == 0 && (scan.slips > 0 || scan.runs.iter().any(|other| other.first != run.first && other.span.len() == 1)),
+        slips: scan.words == 0
+            && (scan.slips > 0
+                || scan.runs.iter().any(|other| other.first != run.first && other.span.len() == 1)),
         shape,
         ..Facts::default()
     }
@@ -633,7 +669,8 @@ pub fn counted(text: &[u8], numbers: Option<Numbers>) -> bool {
     let (mut least, mut most) = (usize::MAX, 0);
     for line in text[..end].split(|c| matches!(c, b'\n' | b'\r')) {
         scan.read(line, 0, numbers);
-        let Some(run) = scan.runs.iter().filter(|run| run.len() >= SHORTEST).max_by_key(|run| run.len()) else {
+        let Some(run) = scan.runs.iter().filter(|run| run.len() >= SHORTEST).max_by_key(|run| run.len())
+        else {
             continue;
         };
         if !scan.counts(run) {
@@ -662,7 +699,8 @@ fn numbers(text: &[u8]) -> (Option<Numbers>, Option<Style>) {
             }
         }
     }
-    let style = Style::ALL.into_iter().zip(styles).filter(|(_, count)| *count > 0).max_by_key(|(_, count)| *count);
+    let style =
+        Style::ALL.into_iter().zip(styles).filter(|(_, count)| *count > 0).max_by_key(|(_, count)| *count);
     let numbers = match (hex, decimal) {
         (SURE.., 0) => Some(Numbers::Hex),
         (0, SURE..) => Some(Numbers::Decimal),

@@ -124,7 +124,8 @@ pub fn number(line: &[u8], at: usize, unit: i64) -> Option<Found> {
         return None;
     }
     let millionths = millionths(&line[to + 1..end]);
-    let micros = i64::try_from(whole).ok()?.checked_mul(unit)?.checked_add(millionths.checked_mul(unit)? / SECOND)?;
+    let micros =
+        i64::try_from(whole).ok()?.checked_mul(unit)?.checked_add(millionths.checked_mul(unit)? / SECOND)?;
     Some(Found { micros, to: end })
 }
 

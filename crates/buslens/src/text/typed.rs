@@ -47,8 +47,13 @@ pub fn remarks(text: &str, from: usize, places: &[Span]) -> Vec<Remark> {
     let mut remarks = Vec::new();
     let mut rest = text.char_indices().map(|(at, c)| (from + at, c)).peekable();
     let mut places = places.iter().peekable();
+    // How many digits of bytes stand right before.
+    let (mut digits, mut end) = (0, 0);
     while let Some((at, c)) = rest.next() {
-        while places.next_if(|place| place.to <= at).is_some() {}
+        while let Some(place) = places.next_if(|place| place.to <= at) {
+            digits = if place.from == end { digits + place.len() } else { place.len() };
+            end = place.to;
+        }
         let read = |at: usize, places: &mut std::iter::Peekable<std::slice::Iter<'_, Span>>| {
             places.peek().is_some_and(|place| place.from <= at)
         };
@@ -61,7 +66,8 @@ pub fn remarks(text: &str, from: usize, places: &[Span]) -> Vec<Remark> {
             to = at + c.len_utf8();
             word.push(c);
         }
-        remarks.push(remark(&word, Span::new(at, to)));
+        let before = if end == at { digits } else { 0 };
+        remarks.push(remark(&word, before, Span::new(at, to)));
     }
     remarks
 }
@@ -70,28 +76,41 @@ pub fn remarks(text: &str, from: usize, places: &[Span]) -> Vec<Remark> {
 pub fn looks_typed(line: &str) -> bool {
     const WORD: usize = 8;
     let letters = line.chars().filter(|c| c.is_alphanumeric());
-    let (hex, all) = letters.fold((0, 0), |(hex, all), c| (hex + usize::from(c.is_ascii_hexdigit()), all + 1));
+    let (hex, all) =
+        letters.fold((0, 0), |(hex, all), c| (hex + usize::from(c.is_ascii_hexdigit()), all + 1));
     let short = line.split(|c: char| !c.is_alphanumeric()).all(|word| word.len() <= WORD);
     all > 0 && hex * 4 >= all * 3 && short && line.chars().any(|c| c.is_ascii_digit())
 }
 
-fn remark(word: &str, span: Span) -> Remark {
+/// What is wrong with `word`, behind so many digits of bytes.
+fn remark(word: &str, before: usize, span: Span) -> Remark {
     let one = word.chars().count() == 1;
     let hex = word.chars().all(|c| c.is_ascii_hexdigit());
     let (code, message) = match word {
-        "O" | "o" => ("not-hex", message!("this is the letter O, not a zero: hex digits are 0 to 9 and A to F")),
+        "O" | "o" => {
+            ("not-hex", message!("this is the letter O, not a zero: hex digits are 0 to 9 and A to F"))
+        }
         "l" | "I" => ("not-hex", message!("this is a letter, not a one: hex digits are 0 to 9 and A to F")),
-        _ if hex && one => ("digit-missing", message!("one digit: a byte has two, a second one is missing")),
-        _ if hex => ("odd-digits", message!("{n} digits: one is left over, since a byte has two", n = word.len())),
+        _ if hex && one && before == 0 => {
+            ("digit-missing", message!("one digit: a byte has two, a second one is missing"))
+        }
+        _ if hex => (
+            "odd-digits",
+            message!("{n} digits: one is left over, since a byte has two", n = before + word.len()),
+        ),
         "0x" | "0X" => {
             ("digit-missing", message!("hex digits are missing after “{prefix}”", prefix = word.to_owned()))
         }
-        _ if one => {
-            ("not-hex", message!("“{text}” is not a hex digit: 0 to 9 and A to F are", text = word.to_owned()))
-        }
+        _ if one => (
+            "not-hex",
+            message!("“{text}” is not a hex digit: 0 to 9 and A to F are", text = word.to_owned()),
+        ),
         _ => (
             "not-hex",
-            message!("“{text}” is not hex: expected bytes of two digits, 0 to 9 and A to F", text = word.to_owned()),
+            message!(
+                "“{text}” is not hex: expected bytes of two digits, 0 to 9 and A to F",
+                text = word.to_owned()
+            ),
         ),
     };
     Remark { code, severity: Severity::Error, message, span }

@@ -41,7 +41,7 @@ fn each(bytes: &[u8], before: &str, between: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tool::{Options, PROTOCOLS, decode};
+    use crate::tool::{Options, PROTOCOLS, Protocol, decode};
 
     #[test]
     fn characters_of_a_line_are_read_again() {
@@ -61,7 +61,9 @@ mod tests {
         for format in FORMATS {
             for bytes in [&bytes[..], &[0x01, 0x03, 0x00, 0xC8, 0x00, 0x03, 0x84, 0x35]] {
                 let text = (format.write)(bytes);
-                let report = decode(&text, Options::default());
+                // Not all of these bytes are a telegram.
+                let protocol = Protocol::of("modbus-rtu");
+                let report = decode(&text, Options { protocol, ..Options::default() });
                 assert_eq!(report.telegrams.len(), 1, "{text}");
                 assert_eq!(report.telegrams[0].line.bytes, bytes, "{}", format.key);
                 assert!(report.telegrams[0].line.remarks.is_empty(), "{text}");

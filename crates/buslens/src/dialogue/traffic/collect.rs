@@ -7,9 +7,7 @@ use super::pieces::Held;
 use crate::dialogue::evidence;
 use crate::field::{Direction, Facts, Span};
 use crate::frame::split::{Begins, Place, Splitter, Waiting, can_split};
-use crate::frame::{
-    PROTOCOLS, Protocol, Settings, Verdict, modbus_rtu, modbus_tcp,
-};
+use crate::frame::{PROTOCOLS, Protocol, Settings, Verdict, modbus_rtu, modbus_tcp};
 use crate::modbus::EXCEPTION;
 use crate::walk::crc_residue;
 
@@ -80,8 +78,9 @@ pub struct Traffic {
     pub(super) passed: Vec<(u32, u32)>,
     /// Entries that turned out to be parts of others.
     pub(super) gone: Vec<u32>,
-    /// The line of the last piece of a text, and its bytes: what is written twice in a line is one telegram.
-    pub(super) latest_piece: (u32, Vec<u8>),
+    /// The line of the last piece of a text, its bytes, and who sent them: what is written twice in a line is
+    /// one telegram.
+    pub(super) latest_piece: (u32, Vec<u8>, Hint),
     /// What other protocols were seen, by their place in [`FOREIGN`](crate::dialogue::foreign::FOREIGN).
     pub(super) foreign_protocols: [u32; crate::dialogue::foreign::FOREIGN.len()],
 }
@@ -174,7 +173,7 @@ impl Traffic {
             shapes: Shapes::default(),
             passed: Vec::new(),
             gone: Vec::new(),
-            latest_piece: (0, Vec::new()),
+            latest_piece: (0, Vec::new(), Hint::None),
             foreign_protocols: [0; crate::dialogue::foreign::FOREIGN.len()],
         }
     }
@@ -657,7 +656,13 @@ impl Traffic {
     }
 
     /// An entry turns out to be of another protocol.
-    pub(super) fn retype(&mut self, index: usize, bytes: &[u8], protocol: &'static Protocol, verdict: Verdict) {
+    pub(super) fn retype(
+        &mut self,
+        index: usize,
+        bytes: &[u8],
+        protocol: &'static Protocol,
+        verdict: Verdict,
+    ) {
         let mut entry = self.entries[index];
         entry.set_protocol(protocol);
         (entry.verdict, entry.unit, entry.function, entry.sides) = (verdict, None, 0, [false; 2]);
@@ -698,6 +703,19 @@ impl Traffic {
         let Some(function) = pdu.first().copied() else { return };
         entry.function = function;
         entry.sides = self.splitter.sides(pdu);
+        if entry.sides == [false; 2] && self.splitter.knows(function) {
+            // The direction whose length it misses by less.
+            let (_, around) = match protocol.speaker {
+                crate::frame::Speaker::Pdu(inside) => inside(bytes),
+                _ => return,
+            };
+            let waiting = self.waiting[usize::from(entry.port)];
+            let awaited = waiting.is_some_and(|it| Some(it.unit) == entry.unit && it.function == function);
+            let nearer = crate::dialogue::direction(pdu, around, awaited, self.settings.dialect);
+            if let Some(direction) = nearer.told() {
+                entry.sides = [direction == Direction::Request, direction == Direction::Response];
+            }
+        }
         if entry.verdict == Verdict::Wrong {
             return;
         }
@@ -706,6 +724,10 @@ impl Traffic {
         let waiting = &mut self.waiting[usize::from(entry.port)];
         let awaited = waiting.is_some_and(|it| (it.unit, it.function) == (unit, plain));
         *waiting = match entry.sides {
+            // Of a function that is not known, nothing tells whether it asks.
+            [false, false] if !self.splitter.knows(function) => {
+                Some(Waiting { unit, function: plain, length: None })
+            }
             [true, answers] if !(answers && awaited) => Some(Waiting {
                 unit,
                 function: plain,

@@ -72,6 +72,11 @@ fn alike(a: &Entry, b: &Entry, data: &[u8]) -> bool {
     (one.len() ^ other.len()) | usize::from(last ^ other_last) == 0 && one == other
 }
 
+/// Whether the response of a function repeats the request.
+fn repeats_request(entry: &Entry) -> bool {
+    entry.verdict != Verdict::Wrong && matches!(entry.function, 5 | 6 | 22)
+}
+
 impl Habits {
     fn of(entries: &[Entry], data: &[u8]) -> Self {
         let (mut logger, mut hinted) = (0_i64, 0_i64);
@@ -81,7 +86,8 @@ impl Habits {
         // A third copy is none of the second.
         let mut doubled = false;
         for entry in entries.iter().filter(|entry| entry.role != Role::Discarded) {
-            let [asks, answers] = entry.sides.map(i64::from);
+            // What is damaged may have the length of the other side.
+            let [asks, answers] = entry.sides.map(|side| i64::from(side && entry.verdict != Verdict::Wrong));
             let side = asks - answers;
             match entry.hint {
                 Hint::Logger => logger += side,
@@ -161,9 +167,20 @@ impl Port {
             (_, Some(hinted)) => hinted,
             ([true, false], _) => Direction::Request,
             ([false, true], _) => Direction::Response,
+            // The answer to a write of one value repeats it: another value is another write.
+            _ if awaited && repeats_request(&entry) && protocol.waiting == 1 => {
+                let asked = last.map(|(request, _)| bytes(&entries[request], data));
+                let same = asked.is_some_and(|asked| asked.starts_with(own) || own.starts_with(asked));
+                if same { Direction::Response } else { Direction::Request }
+            }
+            // Of a function that is not known the same bytes again are another try.
+            _ if awaited && repeats && entry.sides == [false; 2] => Direction::Request,
             _ if awaited => Direction::Response,
             _ => Direction::Request,
         };
+        if direction == Direction::Request && awaited && repeats_request(&entry) {
+            entries[index].sides = [true, false];
+        }
         entries[index].direction = direction;
         self.previous = Some(index);
         if echoes {
@@ -178,6 +195,10 @@ impl Port {
                 // Polls are alike, too: only who asks again at once tries again.
                 if repeats || again {
                     entries[index].role = Role::Retry;
+                    // Of a function that is not known, that tells who speaks.
+                    if let Some((request, _)) = last.filter(|_| entry.sides == [false; 2]) {
+                        entries[request].sides = [true, false];
+                    }
                 }
                 self.echoed = false;
                 // Who asks again does not wait for the first answer any more.

@@ -6,10 +6,11 @@ use super::collect::Traffic;
 use super::entry::{Entry, Role};
 use crate::dialogue::evidence::{self, CONVERSATION, OTHER_KIND, SAME, SEEN};
 use crate::dialogue::foreign::FT12;
-use crate::dialogue::{Candidate, protocols};
-use crate::field::{Facts, Span};
+use crate::dialogue::{Candidate, protocols, turns};
+use crate::field::{Direction, Facts, Span};
 use crate::frame::{
-    Protocol, Verdict, modbus_ascii, modbus_pdu, modbus_rtu, modbus_tcp, modbus_unchecked, profibus_fdl,
+    Protocol, Speaker, Verdict, modbus_ascii, modbus_pdu, modbus_rtu, modbus_tcp, modbus_unchecked,
+    profibus_fdl,
 };
 use crate::modbus::EXCEPTION;
 
@@ -32,6 +33,10 @@ struct Shape {
     pieces: usize,
     proven: usize,
     alike: usize,
+    /// Of those without a proof, how many look like telegrams with a wrong check, and how many like some without
+    /// one.
+    damaged: usize,
+    unchecked: usize,
 }
 
 /// The shapes of a text, as [`Facts::shape`] numbers them.
@@ -51,6 +56,21 @@ impl Shapes {
 
     pub fn look_alike(&mut self, number: u32) {
         self.of(number).alike += 1;
+    }
+
+    pub fn look_damaged(&mut self, number: u32) {
+        self.of(number).damaged += 1;
+    }
+
+    pub fn look_unchecked(&mut self, number: u32) {
+        self.of(number).unchecked += 1;
+    }
+
+    /// Whether telegrams there mostly have their check.
+    fn are_checked(&self, number: u32) -> bool {
+        self.shapes
+            .iter()
+            .any(|shape| shape.number == number && shape.proven + shape.damaged > shape.unchecked)
     }
 
     /// More share the last one.
@@ -77,6 +97,9 @@ impl Shapes {
     }
 }
 
+/// Fewer bytes are only told by a person.
+const SHORTEST: usize = 4;
+
 /// The kinds of frames, as far as a text rarely mixes them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Family {
@@ -88,9 +111,14 @@ enum Family {
 fn family(protocol: &Protocol) -> Family {
     match () {
         () if protocol.is(&modbus_tcp::PROTOCOL) => Family::Tcp,
-        () if [&modbus_rtu::PROTOCOL, &modbus_ascii::PROTOCOL, &modbus_pdu::PROTOCOL, &modbus_unchecked::PROTOCOL]
-            .into_iter()
-            .any(|serial| protocol.is(serial)) =>
+        () if [
+            &modbus_rtu::PROTOCOL,
+            &modbus_ascii::PROTOCOL,
+            &modbus_pdu::PROTOCOL,
+            &modbus_unchecked::PROTOCOL,
+        ]
+        .into_iter()
+        .any(|serial| protocol.is(serial)) =>
         {
             Family::Serial
         }
@@ -102,6 +130,7 @@ impl Traffic {
     /// Judges all entries without a proof, and takes out those that are no telegrams.
     pub(super) fn judge(&mut self, typed: bool) {
         if self.weak.is_empty() && self.gone.is_empty() && self.foreign_protocols[FT12] == 0 {
+            self.take_turns();
             return self.settle_passed();
         }
         let mut weak = std::mem::take(&mut self.weak);
@@ -111,7 +140,7 @@ impl Traffic {
             self.choose_typed(&mut weak);
         }
         let known = Known::of(self, &weak, &gone);
-        let threshold = evidence::threshold(weak.len());
+        let threshold = evidence::threshold(weak.iter().filter(|weak| weak.read).count());
         // Telegrams inside of what is none.
         let mut more: Vec<(u32, Vec<Entry>)> = Vec::new();
         for at in 0..weak.len() {
@@ -124,6 +153,14 @@ impl Traffic {
                     as_cut(entry);
                 }
                 entry.sides = copy.unwrap_or(entry.sides);
+                let checked = self.shapes.are_checked(one.facts.shape) && copy.is_none() && !one.cut;
+                let response = self.entries[one.entry as usize].sides == [false, true];
+                if checked && response && self.lacks_data(one.entry as usize) {
+                    let index = one.entry as usize;
+                    let telegram = bytes(&self.entries[index], &self.data).to_vec();
+                    let verdict = (modbus_rtu::PROTOCOL.verdict)(&telegram);
+                    self.retype(index, &telegram, &modbus_rtu::PROTOCOL, verdict);
+                }
                 continue;
             }
             let placed = one.facts.bare || one.facts.said || one.facts.dumped;
@@ -174,7 +211,25 @@ impl Traffic {
             let shift = |entry: u32| entry - sorted.partition_point(|other| *other < entry) as u32;
             self.pauses.iter_mut().for_each(|(entry, _)| *entry = shift(*entry));
         }
+        self.take_turns();
         self.settle_passed();
+    }
+
+    /// Who speaks where request and response take turns.
+    fn take_turns(&mut self) {
+        let leaning = |entry: &Entry| match entry.protocol().speaker {
+            Speaker::Turns(leaning) => Some(leaning),
+            _ => None,
+        };
+        let leanings: Vec<i32> =
+            self.entries.iter().filter_map(|entry| Some(leaning(entry)?(bytes(entry, &self.data)))).collect();
+        let mut guesses = turns(&leanings).into_iter();
+        for entry in self.entries.iter_mut().filter(|entry| leaning(entry).is_some()) {
+            let told = guesses.next().and_then(|guess| guess.told());
+            if let Some(direction) = told.filter(|_| self.direction.is_none()) {
+                entry.sides = [direction == Direction::Request, direction == Direction::Response];
+            }
+        }
     }
 
     /// Makes entries of telegrams that were found without their ends.
@@ -205,6 +260,8 @@ impl Traffic {
     fn choose_typed(&mut self, weak: &mut [Weak]) {
         /// More are no typing.
         const MOST: usize = 10_000;
+        /// So many bits speak for a protocol.
+        const COMPANY: u32 = 5;
         if self.entries.len() > MOST {
             return;
         }
@@ -218,13 +275,27 @@ impl Traffic {
             .collect();
         let choices: Vec<&'static Protocol> =
             protocols(&candidates, &self.settings).into_iter().map(|choice| choice.protocol).collect();
+        // A telegram that looks like nothing by itself goes with those of its length that do.
+        let fits = |protocol: &Protocol, bytes: &[u8]| (protocol.fit)(bytes, &self.settings).bits;
+        let company: HashSet<(usize, &str)> = candidates
+            .iter()
+            .zip(&choices)
+            .filter(|(candidate, chosen)| fits(chosen, candidate.bytes) > COMPANY)
+            .map(|(candidate, chosen)| (candidate.bytes.len(), chosen.key))
+            .collect();
         for one in weak {
             let chosen = choices[one.entry as usize];
             let index = one.entry as usize;
             let own = self.entries[index].protocol();
-            let other = family(chosen) != Family::Serial || !one.read || chosen.is(&modbus_ascii::PROTOCOL);
             let telegram = bytes(&self.entries[index], &self.data).to_vec();
-            if !one.read && (chosen.fit)(&telegram, &self.settings).bits > 0 {
+            let sure = (chosen.fit)(&telegram, &self.settings).bits >= 16;
+            let other = sure
+                || (self.lacks_data(index) && !one.cut)
+                || family(chosen) != Family::Serial
+                || !one.read
+                || chosen.is(&modbus_ascii::PROTOCOL);
+            let goes_with = company.contains(&(telegram.len(), chosen.key));
+            if !one.read && (goes_with || (chosen.fit)(&telegram, &self.settings).bits > 0) {
                 one.read = true;
             }
             if other && !chosen.is(own) {
@@ -235,14 +306,33 @@ impl Traffic {
         }
     }
 
+    /// Whether an entry that was taken for one without its check is more likely one that lost some of its data:
+    /// where its bytes count the data, two that are missing look so.
+    fn lacks_data(&self, index: usize) -> bool {
+        let entry = &self.entries[index];
+        entry.protocol().is(&modbus_unchecked::PROTOCOL) && entry.length > 6
+    }
+
     /// Whether an entry without a proof is a telegram.
-    fn weigh(&self, one: &Weak, known: &Known, gone: &HashSet<u32>, weak: &[Weak], typed: bool, threshold: i32) -> bool {
+    fn weigh(
+        &self,
+        one: &Weak,
+        known: &Known,
+        gone: &HashSet<u32>,
+        weak: &[Weak],
+        typed: bool,
+        threshold: i32,
+    ) -> bool {
         let entry = &self.entries[one.entry as usize];
         let own = bytes(entry, &self.data);
         let facts = &one.facts;
         // What one person types into an empty page is meant to be one.
         if typed && (one.read || weak.len() == 1) && !facts.abridged {
             return true;
+        }
+        // Nothing so short can be told from other things.
+        if own.len() < SHORTEST && *own != [profibus_fdl::SC] {
+            return false;
         }
         if (facts.abridged && one.cut) || self.repeats(one, gone) {
             return false;
@@ -253,6 +343,7 @@ impl Traffic {
         }
         let family = family(entry.protocol());
         let mut bits = one.bits + self.shapes.bits(facts.shape);
+        bits += if entry.verdict == Verdict::Right { SAME } else { 0 };
         bits += if copies { SAME } else { 0 };
         let pair = (entry.unit.unwrap_or_default(), entry.function & !EXCEPTION);
         bits += if entry.unit.is_some() && known.seen.contains(&pair) { SEEN } else { 0 };
@@ -277,7 +368,9 @@ impl Traffic {
         const NEAR: usize = 3;
         let index = one.entry as usize;
         let entry = &self.entries[index];
-        let near = |other: &&(u32, &Entry)| !gone.contains(&other.0) && other.1.port == entry.port && other.1.role != Role::Discarded;
+        let near = |other: &&(u32, &Entry)| {
+            !gone.contains(&other.0) && other.1.port == entry.port && other.1.role != Role::Discarded
+        };
         let before = self.numbered(index.saturating_sub(NEAR), index);
         let behind = self.numbered(index + 1, index + 1 + NEAR);
         let fits = |request: &Entry, response: &Entry| self.answers(request, response, one.cut);
@@ -304,13 +397,18 @@ impl Traffic {
         own.len() > 2
             && near.into_iter().any(|(number, other)| {
                 let right = other.verdict == Verdict::Right && !gone.contains(&number);
-                right && bytes(other, &self.data).get(1..).is_some_and(|rest| rest.windows(own.len()).any(|part| part == own))
+                right
+                    && bytes(other, &self.data)
+                        .get(1..)
+                        .is_some_and(|rest| rest.windows(own.len()).any(|part| part == own))
             })
     }
 
     /// Whether one telegram can be the answer to another.
     fn answers(&self, request: &Entry, response: &Entry, cut: bool) -> bool {
-        let (Some(asked), Some(answer)) = (pdu(request, &self.data), pdu(response, &self.data)) else { return false };
+        let (Some(asked), Some(answer)) = (pdu(request, &self.data), pdu(response, &self.data)) else {
+            return false;
+        };
         let same_unit = match (request.unit, response.unit) {
             (Some(asked), Some(answers)) => asked == answers,
             _ => true,
@@ -326,7 +424,9 @@ impl Traffic {
             return bytes(request, &self.data)[..2] == bytes(response, &self.data)[..2];
         }
         match self.splitter.answer_length(asked) {
-            Some(length) if cut => answer.len() < length && answer.get(1).is_none_or(|count| usize::from(*count) + 2 == length),
+            Some(length) if cut => {
+                answer.len() < length && answer.get(1).is_none_or(|count| usize::from(*count) + 2 == length)
+            }
             Some(length) => answer.len() == length && response.sides[1],
             None => false,
         }
@@ -335,7 +435,8 @@ impl Traffic {
     /// Where the short frames of M-Bus and IEC 60870-5 were seen, frames like those of PROFIBUS are theirs, too.
     fn take_out_foreign(&mut self, gone: &mut HashSet<u32>) {
         let own = self.entries.iter().filter(|entry| {
-            entry.protocol().is(&profibus_fdl::PROTOCOL) && bytes(entry, &self.data).first() == Some(&profibus_fdl::SD1)
+            entry.protocol().is(&profibus_fdl::PROTOCOL)
+                && bytes(entry, &self.data).first() == Some(&profibus_fdl::SD1)
         });
         if (self.foreign_protocols[FT12] as usize) <= own.count() {
             return;
@@ -404,7 +505,8 @@ impl Known {
     /// If it is one without its end: which sides that can be of.
     fn is_cut_copy(&self, entry: &Entry, data: &[u8]) -> Option<[bool; 2]> {
         let own = bytes(entry, data);
-        let whole = self.alike(own).iter().find(|(known, _)| known.len() > own.len() && known.starts_with(own));
+        let whole =
+            self.alike(own).iter().find(|(known, _)| known.len() > own.len() && known.starts_with(own));
         whole.map(|(_, sides)| *sides)
     }
 
@@ -413,7 +515,11 @@ impl Known {
         let mut found = Vec::new();
         let mut at = 0;
         while at < own.len() {
-            let length = |known: &[u8]| (1..=2).map(|missing| known.len() - missing).find(|length| own[at..].starts_with(&known[..*length]));
+            let length = |known: &[u8]| {
+                (1..=2)
+                    .map(|missing| known.len() - missing)
+                    .find(|length| own[at..].starts_with(&known[..*length]))
+            };
             match self.alike(&own[at..]).iter().find_map(|(known, _)| length(known)) {
                 Some(length) => {
                     found.push(Span::new(at, at + length));
@@ -443,7 +549,7 @@ fn bytes<'a>(entry: &Entry, data: &'a [u8]) -> &'a [u8] {
 fn pdu<'a>(entry: &Entry, data: &'a [u8]) -> Option<&'a [u8]> {
     let own = bytes(entry, data);
     match entry.protocol().speaker {
-        crate::frame::Speaker::Pdu(inside) => Some(inside(own).0),
+        Speaker::Pdu(inside) => Some(inside(own).0),
         _ => None,
     }
 }

@@ -1,14 +1,17 @@
 //! Pieces of a text: what in them is proven to be a telegram, what is the beginning of one that goes on in the
 //! next piece, and what may be one.
 
-use super::collect::{PAUSE, Row, Traffic, has_length, is_right, keep};
+use super::collect::{PAUSE, Row, Traffic, is_right, keep};
 use super::entry::{NO_TIME, Role};
 use super::judge::Weak;
 use crate::dialogue::evidence::{self, Reading};
 use crate::dialogue::foreign::FOREIGN;
 use crate::field::Facts;
 use crate::frame::split::{Begins, Place, Waiting};
-use crate::frame::{PROTOCOLS, Protocol, Speaker, Verdict, modbus_ascii, modbus_rtu, modbus_tcp, profibus_fdl};
+use crate::frame::{
+    PROTOCOLS, Protocol, Speaker, Verdict, modbus_ascii, modbus_rtu, modbus_tcp, modbus_unchecked,
+    profibus_fdl,
+};
 use crate::modbus::EXCEPTION;
 
 /// The beginning of a telegram, of one or more pieces.
@@ -53,7 +56,7 @@ impl Traffic {
 
     fn piece(&mut self, index: usize, bytes: &[u8], decimal: &[u8], breaks: &[usize], row: Row) {
         let facts = row.facts;
-        if self.by_hand && !facts.column && !facts.rest {
+        if self.by_hand && !facts.column && (!facts.rest || facts.bare) {
             return self.all_by_hand(index, bytes);
         }
         if facts.column {
@@ -67,16 +70,17 @@ impl Traffic {
             }
             return self.passed.push((row.line, row.offset));
         }
-        let twice = self.latest_piece.0 == row.line && self.latest_piece.1 == bytes;
+        let twice = (self.latest_piece.0, self.latest_piece.2) == (row.line, row.hint)
+            && self.latest_piece.1 == bytes;
         if twice && row.line > 0 && bytes.len() > 1 {
             return;
         }
-        self.latest_piece.0 = row.line;
+        (self.latest_piece.0, self.latest_piece.2) = (row.line, row.hint);
         self.latest_piece.1.clear();
         self.latest_piece.1.extend_from_slice(bytes);
         let mut found = Vec::new();
         for reading in [bytes, decimal] {
-            if self.whole(index, reading, &mut found) {
+            if self.whole(index, reading, breaks.is_empty(), &mut found) {
                 self.release(index, reading);
                 self.shapes.count(facts.shape, true);
                 return self.take_found(index, reading, 0, &found);
@@ -88,12 +92,12 @@ impl Traffic {
         if self.goes_on(index, bytes, row) {
             return;
         }
-        // `8: 01 03 …`: what stands before the last break is not of the telegram.
-        for from in breaks.iter().copied() {
+        // `8: 01 03 …`: what stands before or behind a break may be none of the telegram.
+        for (from, to) in parts(breaks, bytes.len()) {
             for reading in [bytes, decimal] {
-                if reading.get(from..).is_some_and(|rest| self.whole(index, rest, &mut found)) {
+                if reading.get(from..to).is_some_and(|part| self.whole(index, part, false, &mut found)) {
                     self.shapes.count(facts.shape, true);
-                    return self.take_found(index, &reading[from..], from, &found);
+                    return self.take_found(index, &reading[from..to], from, &found);
                 }
             }
         }
@@ -136,7 +140,9 @@ impl Traffic {
     }
 
     /// Whether all of a piece is telegrams beyond doubt.
-    fn whole(&self, index: usize, bytes: &[u8], found: &mut Vec<Found>) -> bool {
+    /// With `plain`, also headers of Modbus TCP with a function that is not known: RTU frames with many zeros look
+    /// like them.
+    fn whole(&self, index: usize, bytes: &[u8], plain: bool, found: &mut Vec<Found>) -> bool {
         found.clear();
         if bytes.len() < 4 {
             return false;
@@ -150,9 +156,19 @@ impl Traffic {
             found.clear();
             let mut at = 0;
             while at < bytes.len() {
-                let place = Place { bytes: &bytes[at..], last: true, in_step: true, waiting: waiting.filter(|_| at == 0) };
+                let place = Place {
+                    bytes: &bytes[at..],
+                    last: true,
+                    in_step: true,
+                    waiting: waiting.filter(|_| at == 0),
+                };
                 let Begins::Telegram(length) = self.splitter.begins(protocol, place) else { break };
                 let telegram = &bytes[at..at + length];
+                let known =
+                    telegram.get(modbus_tcp::HEADER).is_some_and(|function| self.splitter.knows(*function));
+                if protocol.is(&modbus_tcp::PROTOCOL) && !known && !plain {
+                    break;
+                }
                 let checked = (protocol.verdict)(telegram);
                 found.push((at, at + length, protocol, checked));
                 at += length;
@@ -176,10 +192,13 @@ impl Traffic {
         if !self.splitter.knows(bytes[1]) {
             // Nor is a check right by itself that zeros only follow.
             let before = bytes.len() - 1;
-            return bytes.len() > 4 && bytes[1] & !EXCEPTION != 0 && !(bytes[before] == 0 && is_right(&bytes[..before]));
+            return bytes.len() > 4
+                && bytes[1] & !EXCEPTION != 0
+                && !(bytes[before] == 0 && is_right(&bytes[..before]));
         }
         let lengths = self.splitter.rtu_lengths(bytes);
-        let shorter = lengths.into_iter().flatten().any(|length| length < bytes.len() && is_right(&bytes[..length]));
+        let shorter =
+            lengths.into_iter().flatten().any(|length| length < bytes.len() && is_right(&bytes[..length]));
         let longer = lengths.into_iter().flatten().any(|length| length > bytes.len());
         self.splitter.sides(pdu) != [false; 2] || (!shorter && !longer)
     }
@@ -195,7 +214,8 @@ impl Traffic {
                 self.add(index, &telegram, 0, &modbus_ascii::PROTOCOL, verdict);
                 return true;
             }
-            let reading = evidence::ascii(&telegram, &self.splitter).filter(|_| !facts.column);
+            let reading = evidence::ascii(&telegram, &self.splitter)
+                .filter(|_| !facts.column && (known || telegram.len() > 2));
             let Some(reading) = reading else { return false };
             self.add_weak(index, &telegram, 0, facts, Some(reading));
             return true;
@@ -207,7 +227,7 @@ impl Traffic {
         let digit = |c: u8| char::from(c).to_digit(16).unwrap_or_default() as u8;
         let telegram: Vec<u8> = text.chunks(2).map(|pair| digit(pair[0]) << 4 | digit(pair[1])).collect();
         let mut found = Vec::new();
-        self.whole(index, &telegram, &mut found) && {
+        self.whole(index, &telegram, true, &mut found) && {
             self.take_found(index, &telegram, 0, &found);
             true
         }
@@ -218,7 +238,9 @@ impl Traffic {
         found.clear();
         let protocols = [&modbus_rtu::PROTOCOL, &profibus_fdl::PROTOCOL];
         let most = protocols.into_iter().map(|protocol| (self.splitter.covered(protocol, bytes), protocol));
-        let (covered, protocol) = most.reduce(|best, other| if other.0 > best.0 { other } else { best }).unwrap_or((0, protocols[0]));
+        let (covered, protocol) = most
+            .reduce(|best, other| if other.0 > best.0 { other } else { best })
+            .unwrap_or((0, protocols[0]));
         let mut at = 0;
         let mut waiting = self.waiting_at(index);
         while covered > 0 && at < bytes.len() {
@@ -289,6 +311,9 @@ impl Traffic {
     /// A telegram came that needs no other piece: what was held is by itself, unless it was a part of this one.
     fn release(&mut self, index: usize, bytes: &[u8]) {
         let Some(held) = self.lanes[index].held.take() else { return };
+        if is_apart(&held, self.lanes[index].row(0)) {
+            return;
+        }
         // A buffer that grows is printed again and again. What lacked only its check was sent by itself.
         if bytes.starts_with(&held.bytes) && !held.complete && held.age == 0 {
             self.gone.extend(held.entries);
@@ -300,7 +325,8 @@ impl Traffic {
         /// So many other pieces may come between.
         const OTHERS: usize = 8;
         let Some(mut held) = self.lanes[index].held.take() else { return false };
-        if held.bytes[held.latest..] == *bytes || held.bytes == bytes {
+        let elsewhere = held.rows.last().is_some_and(|last| last.facts.shape != row.facts.shape);
+        if elsewhere && (held.bytes[held.latest..] == *bytes || held.bytes == bytes) {
             self.lanes[index].held = Some(held);
             return true;
         }
@@ -308,20 +334,17 @@ impl Traffic {
             self.lanes[index].held = Some(held);
             return false;
         }
-        let apart = held.rows.last().is_some_and(|last| {
-            let timed = row.time != NO_TIME && last.time != NO_TIME;
-            timed && !(0..=PAUSE).contains(&(row.time - last.time))
-        });
-        if apart {
+        if is_apart(&held, row) {
             return false;
         }
         let length = held.bytes.len();
         let joined = [held.bytes.as_slice(), bytes].concat();
         let rest = &joined[held.from..];
         let mut found = Vec::new();
-        let whole = self.whole(index, rest, &mut found);
+        let whole = self.whole(index, rest, true, &mut found);
         if whole || self.is_beginning(index, rest) && row.facts.shape == held.rows[0].facts.shape {
-            let rows = self.lanes[index].rows.iter().map(|row| Row { from: row.from + length as isize, ..*row });
+            let rows =
+                self.lanes[index].rows.iter().map(|row| Row { from: row.from + length as isize, ..*row });
             held.rows.extend(rows);
             if whole {
                 self.gone.extend(&held.entries);
@@ -330,8 +353,10 @@ impl Traffic {
                 self.take_found(index, rest, held.from, &found);
                 self.note_pause(index);
             } else {
+                // It may be one by itself all the same, if the end never comes.
                 (held.latest, held.bytes, held.age) = (length, joined, 0);
                 self.lanes[index].held = Some(held);
+                return false;
             }
             return true;
         }
@@ -348,10 +373,12 @@ impl Traffic {
         let awaited = self.waiting_at(index).is_some_and(|it| (it.unit, it.function) == (unit, function));
         let rtu = unit <= 247 && self.splitter.is_beginning(bytes);
         let fdl = profibus_fdl::Fdl::length(bytes).is_some_and(|length| length > bytes.len())
-            && bytes.len() > 3 && bytes[0] == profibus_fdl::SD2;
+            && bytes.len() > 3
+            && bytes[0] == profibus_fdl::SD2;
         let tcp = Place { bytes, last: false, in_step: true, waiting: None };
         let tcp = bytes.len() > 5 && self.splitter.begins(&modbus_tcp::PROTOCOL, tcp) == Begins::More;
-        bytes.len() < modbus_rtu::RTU.longest() && (rtu || fdl || tcp || (awaited && !self.splitter.knows(function)))
+        bytes.len() < modbus_rtu::RTU.longest()
+            && (rtu || fdl || tcp || (awaited && !self.splitter.knows(function)))
     }
 
     /// A piece without a telegram that is beyond doubt: what it most likely is, to be judged when all of the
@@ -361,17 +388,17 @@ impl Traffic {
         const STRAY: usize = 2;
         let facts = row.facts;
         self.shapes.count(facts.shape, false);
-        if bytes.len() > LONGEST {
+        if bytes.len() > LONGEST && !(facts.bare && bytes.len() < 2 * LONGEST) {
             return self.passed.push((row.line, row.offset));
         }
-        let parts = breaks.iter().copied().map(|from| &bytes[from..]);
-        let readings = [bytes, decimal].into_iter().chain(parts).filter(|part| !part.is_empty());
+        let whole = [(0, bytes), (0, decimal)].into_iter();
+        let parts = parts(breaks, bytes.len()).map(|(from, to)| (from, &bytes[from..to]));
+        let readings = whole.chain(parts).filter(|(_, part)| !part.is_empty());
         let waiting = self.waiting_at(index);
         let best = readings
-            .map(|part| (part, evidence::reading(part, &self.splitter, waiting)))
-            .reduce(|best, other| if bits(&other.1) > bits(&best.1) { other } else { best });
-        let Some((part, reading)) = best else { return };
-        let from = if part.len() < bytes.len() { bytes.len() - part.len() } else { 0 };
+            .map(|(from, part)| (from, part, evidence::reading(part, &self.splitter, waiting)))
+            .reduce(|best, other| if bits(&other.2) > bits(&best.2) { other } else { best });
+        let Some((from, part, reading)) = best else { return };
         let before = self.entries.len();
         let begins = |from: &usize| bytes.get(*from..).is_some_and(|rest| self.is_beginning(index, rest));
         let awaited = |from: &usize| {
@@ -380,22 +407,35 @@ impl Traffic {
         };
         let begins = (0..=STRAY.min(bytes.len())).filter(begins).find(awaited);
         self.add_weak(index, part, from, &facts, reading);
+        let added = (self.entries.len() > before).then_some(before as u32);
+        if let Some(held) = self.lanes[index]
+            .held
+            .as_mut()
+            .filter(|held| held.age == 0 && held.bytes[held.latest..] == *bytes)
+        {
+            return held.entries.extend(added);
+        }
         if let Some(from) = begins.filter(|_| !facts.abridged) {
-            let entry = (self.entries.len() > before).then_some(before as u32);
             let rows = self.lanes[index].rows.clone();
             let lane = &mut self.lanes[index];
             let grows = lane.held.take().filter(|held| bytes.starts_with(&held.bytes) && held.age == 0);
-            let entries = grows.into_iter().flat_map(|held| held.entries).chain(entry).collect();
+            let entries = grows.into_iter().flat_map(|held| held.entries).chain(added).collect();
             let complete = reading.is_some_and(|reading| !reading.cut);
-            lane.held = Some(Held { bytes: bytes.to_vec(), rows, from, latest: 0, entries, complete, age: 0 });
+            lane.held =
+                Some(Held { bytes: bytes.to_vec(), rows, from, latest: 0, entries, complete, age: 0 });
         }
     }
 
     /// What bytes are as a service of PROFIBUS without its frame.
     fn bare_profibus(&self, bytes: &[u8]) -> Option<Reading> {
-        let bare = PROTOCOLS.iter().copied().filter(|protocol| !matches!(protocol.speaker, Speaker::Pdu(_) | Speaker::Frame(_)));
+        let bare = PROTOCOLS
+            .iter()
+            .copied()
+            .filter(|protocol| !matches!(protocol.speaker, Speaker::Pdu(_) | Speaker::Frame(_)));
         let fits = bare.map(|protocol| ((protocol.fit)(bytes, &self.settings).bits as i32, protocol));
-        let (bits, protocol) = fits.filter(|(bits, _)| *bits > 0).reduce(|best, other| if other.0 > best.0 { other } else { best })?;
+        let (bits, protocol) = fits
+            .filter(|(bits, _)| *bits > 0)
+            .reduce(|best, other| if other.0 > best.0 { other } else { best })?;
         Some(Reading { protocol, verdict: Verdict::NoCheck, from: 0, bits, cut: false })
     }
 
@@ -404,21 +444,35 @@ impl Traffic {
         let reading = reading.or_else(|| self.bare_profibus(bytes));
         let (protocol, verdict) = match &reading {
             Some(reading) => (reading.protocol, reading.verdict),
-            None if has_length(bytes) => (&modbus_rtu::PROTOCOL, Verdict::Wrong),
-            None => (&modbus_rtu::PROTOCOL, Verdict::Unchecked),
+            None => (&modbus_rtu::PROTOCOL, modbus_rtu::RTU.verdict(bytes)),
         };
         let stray = reading.as_ref().map_or(0, |reading| reading.from);
         let before = self.entries.len();
+        let port = usize::from(self.lanes[index].row(0).port);
+        let waiting = self.waiting[port];
         self.add(index, &bytes[stray..], from + stray, protocol, verdict);
         if self.entries.len() == before {
             return;
         }
-        if reading.is_some_and(|reading| reading.cut) {
+        // What may be no request does not wait for its answer.
+        if reading.is_none_or(|reading| reading.cut) {
+            self.waiting[port] = waiting;
+        }
+        if protocol.is(&modbus_unchecked::PROTOCOL) && reading.is_some_and(|reading| reading.cut) {
             // Requests are short: what is cut is a response.
             self.entries[before].sides = [false, true];
         }
         if bits(&reading) > 8 {
             self.shapes.look_alike(facts.shape);
+        }
+        match reading {
+            Some(Reading { protocol, .. }) if protocol.is(&modbus_rtu::PROTOCOL) => {
+                self.shapes.look_damaged(facts.shape)
+            }
+            Some(Reading { protocol, cut: false, .. }) if protocol.is(&modbus_unchecked::PROTOCOL) => {
+                self.shapes.look_unchecked(facts.shape);
+            }
+            _ => {}
         }
         self.weak.push(Weak {
             entry: before as u32,
@@ -429,6 +483,25 @@ impl Traffic {
         });
         debug_assert!(self.entries[before].role == Role::Plain);
     }
+}
+
+/// Whether so much time passed since what is held that nothing goes on with it.
+fn is_apart(held: &Held, row: Row) -> bool {
+    held.rows.last().is_some_and(|last| {
+        let timed = row.time != NO_TIME && last.time != NO_TIME;
+        timed && !(0..=PAUSE).contains(&row.time.saturating_sub(last.time))
+    })
+}
+
+/// The parts of a piece of so many bytes between its breaks, the longest ones first for each beginning; all of
+/// it is none.
+fn parts(breaks: &[usize], length: usize) -> impl Iterator<Item = (usize, usize)> {
+    let ends = move |from: usize| {
+        let later = breaks.iter().rev().copied().filter(move |to| *to > from);
+        std::iter::once(length).chain(later).map(move |to| (from, to))
+    };
+    let begins = breaks.iter().copied().chain([0]);
+    begins.flat_map(ends).filter(move |part| *part != (0, length))
 }
 
 fn bits(reading: &Option<Reading>) -> i32 {

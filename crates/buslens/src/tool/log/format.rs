@@ -138,7 +138,9 @@ pub(super) fn tell(beginning: &[u8], reading: &Reading) -> Result<(Format, Encod
     let text = encoding.text(beginning);
     let recognised = text::recognise(&text);
     // The same list can be exported with the bytes below each line.
-    if let Some(export) = text::export(&text).filter(|_| recognised.dumped == 0 && reading.input == Input::Auto) {
+    if let Some(export) =
+        text::export(&text).filter(|_| recognised.dumped == 0 && reading.input == Input::Auto)
+    {
         return Err(Refusal::NoBytes { name: export.name, instead: export.instead });
     }
     let format = Format::Text {

@@ -415,7 +415,9 @@ fn is_typed(event: &Event<'_>) -> bool {
     const LABEL: usize = 16;
     match event {
         Event::Piece(piece) => {
-            let labelled = piece.facts.said && piece.time.is_none() && piece.places.first().is_none_or(|place| place.from < LABEL);
+            let labelled = piece.facts.said
+                && piece.time.is_none()
+                && piece.places.first().is_none_or(|place| place.from < LABEL);
             piece.facts.column || piece.facts.bare || labelled || (piece.facts.slips && piece.time.is_none())
         }
         Event::Unread { .. } => false,

@@ -110,7 +110,7 @@ impl Log {
             Format::Text { style, .. } if !report.telegrams.is_empty() => style,
             _ => None,
         };
-        report.line_count = text.lines().count();
+        report.line_count = self.lines as usize;
         let lines = self.unread().iter().map(|(number, offset)| {
             let from = *offset as usize;
             let line = text.get(from..).unwrap_or_default();
@@ -221,6 +221,9 @@ impl Log {
             let reason = message!("it is the request before it, come back over the same wires");
             return guess(Certainty::Certain, reason);
         }
+        if entry.role == Role::Retry && number.is_none() && !entry.is_said() {
+            return guess(Certainty::Likely, message!("the same was asked just before, without an answer"));
+        }
         let protocol = entry.protocol();
         let bytes = self.bytes(entry);
         let own = match protocol.speaker {
@@ -236,7 +239,8 @@ impl Log {
             Speaker::Turns(leaning) => dialogue::leaning(leaning(bytes)),
         };
         let turns = matches!(protocol.speaker, Speaker::Turns(_));
-        if protocol.is(&modbus_unchecked::PROTOCOL) && own.certainty != Certainty::Certain && number.is_none() {
+        if protocol.is(&modbus_unchecked::PROTOCOL) && own.certainty != Certainty::Certain && number.is_none()
+        {
             let reason = match direction {
                 Direction::Response => message!("its byte count says that it is the beginning of a response"),
                 Direction::Request => message!("a check is added to what is sent"),
@@ -247,8 +251,12 @@ impl Log {
             return own;
         }
         match (number, direction) {
-            _ if turns && number.is_some() => guess(Certainty::Likely, message!("request and response take turns")),
-            (Some(n), Direction::Request) => guess(Certainty::Likely, message!("telegram {n} answers it", n = n)),
+            _ if turns && number.is_some() => {
+                guess(Certainty::Likely, message!("request and response take turns"))
+            }
+            (Some(n), Direction::Request) => {
+                guess(Certainty::Likely, message!("telegram {n} answers it", n = n))
+            }
             (Some(n), Direction::Response) => {
                 let asked = entry.partner().map(|partner| self.bytes(&self.entries()[partner]));
                 let reason = if asked == Some(bytes) {
@@ -256,6 +264,10 @@ impl Log {
                 } else {
                     message!("telegram {n} waits for such a response", n = n)
                 };
+                guess(Certainty::Likely, reason)
+            }
+            (None, Direction::Request) if entry.sides() == [true, false] => {
+                let reason = message!("the telegrams around it tell");
                 guess(Certainty::Likely, reason)
             }
             (None, _) if entry.is_said() => guess(Certainty::Likely, message!("the text says who speaks")),
@@ -379,10 +391,10 @@ impl Search<'_> {
             let mut own = reading.to_vec();
             // Two characters are one byte.
             if let Some(decoded) = of_characters(reading) {
-                let colon = usize::from(reading[0] == b':');
-                let pairs = spans[colon..].chunks(2).take(decoded.len());
-                spans = pairs.map(|pair| Span::new(pair[0].from, pair[pair.len() - 1].to)).collect();
+                let colon = usize::from(reading.first() == Some(&b':'));
+                let pairs = spans.get(colon..).unwrap_or_default().chunks(2).take(decoded.len());
                 if self.bytes[found..].starts_with(&decoded) {
+                    spans = pairs.map(|pair| Span::new(pair[0].from, pair[pair.len() - 1].to)).collect();
                     (own, self.skip) = (decoded, 0);
                 }
             }
