@@ -291,7 +291,6 @@ mod texts {
 
     /// Overflow checks are on in tests.
     #[test]
-    #[ignore = "text is rewritten"]
     fn nothing_overflows() {
         for text in
             ["0xx", "20000000000000.0", "20000000000000.0 01 03", "99999999999999999999.9 01 03 00 C8"]
@@ -303,7 +302,6 @@ mod texts {
 
     /// Over at once: to look for the closing quote from every quote took 50 µs a byte.
     #[test]
-    #[ignore = "text is rewritten"]
     fn lines_of_quotes_take_linear_time() {
         for unit in ["'\\", "\"\\", "'", "\"", "b'", "'\\x", "\"'", "(", "[", "{", "<", "`"] {
             let text = unit.repeat(400_000 / unit.len());
@@ -315,7 +313,6 @@ mod texts {
     /// Over at once, with as much said as somebody can read: each line had a remark of its own, 330 bytes
     /// of memory for each byte.
     #[test]
-    #[ignore = "text is rewritten"]
     fn much_text_of_short_lines_is_decoded() {
         for line in ["0\n", "01\n", "01\r\n", "G\n", "\n", "01 03\n"] {
             let report = decode(&line.repeat(1_000_000 / line.len()), Options::default());

@@ -120,6 +120,14 @@ pub fn ascii(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
     Some(Reading { protocol: &modbus_ascii::PROTOCOL, verdict: Verdict::Wrong, from: 0, bits, cut: false })
 }
 
+/// Bytes that are the characters of a frame of Modbus ASCII, whatever it holds.
+pub fn characters(bytes: &[u8]) -> Reading {
+    /// A colon and hex digits only.
+    const CHARACTERS: i32 = 10;
+    let verdict = verdict(&modbus_ascii::PROTOCOL, bytes);
+    Reading { protocol: &modbus_ascii::PROTOCOL, verdict, from: 0, bits: CHARACTERS, cut: false }
+}
+
 fn damaged(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
     let pdu = modbus_rtu::RTU.pdu_bytes(bytes);
     let bits = unit(*bytes.first()?) + structure(pdu, splitter)? + WRONG;

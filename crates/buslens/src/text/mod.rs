@@ -376,11 +376,10 @@ impl Reader {
             places: &scan.places[run.first..run.end],
             line: self.line,
             offset: self.offset,
-            time: context.time.or(header.and_then(|header| header.time)).or(if context.dumped {
-                self.remembered
-            } else {
-                None
-            }),
+            time: context
+                .time
+                .or(header.and_then(|header| header.time))
+                .or(self.remembered.filter(|_| context.dumped || context.bare)),
             sender: marks.or(sender),
             port: (!port.is_empty()).then_some(port),
             joins: context.joins,

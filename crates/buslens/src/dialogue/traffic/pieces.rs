@@ -215,6 +215,7 @@ impl Traffic {
                 return true;
             }
             let reading = evidence::ascii(&telegram, &self.splitter)
+                .or_else(|| (!facts.colon).then(|| evidence::characters(&telegram)))
                 .filter(|_| !facts.column && (known || telegram.len() > 2));
             let Some(reading) = reading else { return false };
             self.add_weak(index, &telegram, 0, facts, Some(reading));

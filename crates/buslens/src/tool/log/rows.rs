@@ -111,7 +111,14 @@ impl Log {
             _ => None,
         };
         report.line_count = self.lines as usize;
-        let lines = self.unread().iter().map(|(number, offset)| {
+        /// Nobody reads more of them.
+        const MOST_LINES: usize = 10_000;
+        const MOST_REMARKS: usize = 500;
+        let mut said: usize = report.telegrams.iter().map(|telegram| telegram.line.remarks.len()).sum();
+        for telegram in report.telegrams.iter_mut().skip(MOST_REMARKS) {
+            telegram.line.remarks.clear();
+        }
+        let lines = self.unread().iter().take(MOST_LINES).map(|(number, offset)| {
             let from = *offset as usize;
             let line = text.get(from..).unwrap_or_default();
             let line = line.split(['\n', '\r']).next().unwrap_or_default();
@@ -119,12 +126,14 @@ impl Log {
             let display = report.explain_display(line, span);
             let remarks = match display {
                 Some(remark) => vec![remark],
-                None if text::looks_typed(line) => text::remarks(line, from, &[]),
+                None if said < MOST_REMARKS && text::looks_typed(line) => text::remarks(line, from, &[]),
                 None => Vec::new(),
             };
+            said += remarks.len();
             Line { number: *number as usize, span, remarks, ..Line::default() }
         });
-        report.not_understood = lines.collect();
+        let lines: Vec<Line> = lines.collect();
+        report.not_understood = lines;
         report
     }
 
