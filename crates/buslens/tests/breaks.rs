@@ -431,3 +431,23 @@ mod builds {
         }
     }
 }
+
+/// What the fuzzer found in texts and logs, each with its smallest input.
+mod found {
+    use super::*;
+    use buslens::tool::log::{Input, Log, Reading};
+
+    /// Half a letter was no word and no sign: the reader stood still.
+    #[test]
+    fn halves_of_letters_end() {
+        for bytes in
+            [&b"\xA1\xB2\xC3"[..], b"\xC3", b"\xC9 01 03", b"\xC3\xC3", b"\xB5\x0C?", b"\xE2", b"01\xC3"]
+        {
+            for input in [Input::Auto, Input::Text, Input::Binary] {
+                let reading = Reading { input, ..Reading::default() };
+                let _ = Log::read(bytes, &reading, Options::default());
+                decode(&String::from_utf8_lossy(bytes), Options::default());
+            }
+        }
+    }
+}

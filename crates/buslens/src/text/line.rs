@@ -209,7 +209,8 @@ impl Scan {
                 },
                 b'&' if matches!(line.get(at + 1), Some(b'H' | b'h')) => self.of_basic(line, at),
                 ESCAPE => at + escape_sequence(&line[at..]).max(1),
-                _ if is_word(c) => self.word(line, at, numbers),
+                // A letter can be cut, or its first byte one of another kind.
+                _ if is_word(c) && word_end(line, at) > at => self.word(line, at, numbers),
                 0x80.. => self.sign(line, at),
                 b' ' | b'\t' | b'|' => {
                     match self.open.as_ref().is_some_and(|run| self.is_column(line, run)) {
