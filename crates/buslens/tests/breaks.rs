@@ -450,4 +450,23 @@ mod found {
             }
         }
     }
+    /// A number before the bytes looked like the first of them: the others had no places.
+    #[test]
+    fn each_byte_has_its_place() {
+        let options = Options { protocol: Some(PROTOCOLS[0]), ..Options::default() };
+        let report = decode("<-225\0\0225 9 0 1", options);
+        for telegram in &report.telegrams {
+            assert_eq!(telegram.line.bytes.len(), telegram.line.places.len(), "{:?}", telegram.line.bytes);
+        }
+    }
+
+    /// Over at once: to look at all pieces of a line for each of them takes minutes.
+    #[test]
+    fn lines_of_many_pieces_take_linear_time() {
+        for unit in ["20000000000000.0=", "..99999999999999999999", "len=8 01 ", "(01)x", "-1 g ", "1,g "] {
+            let text = unit.repeat(60_000 / unit.len());
+            let _ = Log::read(text.as_bytes(), &Reading::default(), Options::default());
+            decode(&text, Options::default());
+        }
+    }
 }

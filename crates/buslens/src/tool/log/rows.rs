@@ -391,9 +391,18 @@ struct Search<'a> {
 impl Search<'_> {
     fn take(&mut self, piece: &Piece<'_>) {
         let found = self.places.len();
-        if found >= self.bytes.len() {
+        if found >= self.bytes.len() || self.go_on(piece, found) || found == 0 {
             return;
         }
+        // What came before may only have looked like its beginning.
+        let before = std::mem::take(&mut self.places);
+        if !self.go_on(piece, 0) || self.places.len() < before.len() {
+            self.places = before;
+        }
+    }
+
+    /// Takes the piece for what comes behind the first `found` bytes, if it is that.
+    fn go_on(&mut self, piece: &Piece<'_>, found: usize) -> bool {
         let base = piece.offset as usize;
         for reading in [Some(piece.bytes), piece.decimal].into_iter().flatten() {
             let mut spans: Vec<Span> = piece.places.iter().map(|place| place.shifted(base)).collect();
@@ -415,9 +424,10 @@ impl Search<'_> {
                 if piece.facts.slips {
                     self.slips = Some((base, piece.places.iter().map(|place| place.shifted(base)).collect()));
                 }
-                return;
+                return true;
             }
         }
+        false
     }
 }
 
