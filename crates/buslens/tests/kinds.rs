@@ -63,7 +63,15 @@ fn modbus(protocol: &'static Protocol, dialect: &'static Dialect, seed: u64) -> 
                 Some((&kind.spec, kind.direction, written(frame.as_mut())))
             })
         });
-        telegrams.extend(requests.zip(responses).flat_map(<[_; 2]>::from));
+        // The response to a write of one value repeats it: with another one it is another request.
+        const REPEATED: [&str; 3] =
+            ["write_single_coil_request", "write_single_register_request", "mask_write_register_request"];
+        telegrams.extend(requests.zip(responses).flat_map(|(request, mut response)| {
+            if REPEATED.contains(&request.0.key) {
+                response.2 = request.2.clone();
+            }
+            [request, response]
+        }));
     }
     Stream { protocol, dialect, telegrams }
 }

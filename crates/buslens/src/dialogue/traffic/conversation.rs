@@ -72,6 +72,11 @@ fn alike(a: &Entry, b: &Entry, data: &[u8]) -> bool {
     (one.len() ^ other.len()) | usize::from(last ^ other_last) == 0 && one == other
 }
 
+/// Whether a telegram begins with a shorter one.
+fn begins_with(own: &[u8], shorter: &[u8]) -> bool {
+    shorter.len() > 2 && own.len() > shorter.len() && own.starts_with(shorter)
+}
+
 /// Whether the response of a function repeats the request.
 fn repeats_request(entry: &Entry) -> bool {
     entry.verdict != Verdict::Wrong && matches!(entry.function, 5 | 6 | 22)
@@ -173,6 +178,12 @@ impl Port {
                 let same = asked.is_some_and(|asked| asked.starts_with(own) || own.starts_with(asked));
                 if same { Direction::Response } else { Direction::Request }
             }
+            // What was cut before comes whole now.
+            _ if entry.sides == [false; 2]
+                && self.previous.is_some_and(|it| begins_with(own, bytes(&entries[it], data))) =>
+            {
+                self.previous.map_or(Direction::Request, |it| entries[it].direction)
+            }
             // Of a function that is not known the same bytes again are another try.
             _ if awaited && repeats && entry.sides == [false; 2] => Direction::Request,
             _ if awaited => Direction::Response,
@@ -180,6 +191,9 @@ impl Port {
         };
         if direction == Direction::Request && awaited && repeats_request(&entry) {
             entries[index].sides = [true, false];
+        }
+        if entry.sides == [false; 2] && direction == Direction::Response {
+            entries[index].sides = [false, true];
         }
         entries[index].direction = direction;
         self.previous = Some(index);

@@ -419,7 +419,10 @@ impl Traffic {
         if let Some(from) = begins.filter(|_| !facts.abridged) {
             let rows = self.lanes[index].rows.clone();
             let lane = &mut self.lanes[index];
-            let grows = lane.held.take().filter(|held| bytes.starts_with(&held.bytes) && held.age == 0);
+            let grows = lane
+                .held
+                .take()
+                .filter(|held| bytes.starts_with(&held.bytes) && held.age == 0 && !is_apart(held, row));
             let entries = grows.into_iter().flat_map(|held| held.entries).chain(added).collect();
             let complete = reading.is_some_and(|reading| !reading.cut);
             lane.held =

@@ -275,7 +275,9 @@ impl Log {
                 };
                 guess(Certainty::Likely, reason)
             }
-            (None, Direction::Request) if entry.sides() == [true, false] => {
+            (None, _)
+                if entry.sides() == [direction == Direction::Request, direction == Direction::Response] =>
+            {
                 let reason = message!("the telegrams around it tell");
                 guess(Certainty::Likely, reason)
             }
