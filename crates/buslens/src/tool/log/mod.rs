@@ -9,6 +9,7 @@ mod format;
 #[cfg(feature = "captures")]
 mod packets;
 mod pictures;
+mod places;
 mod rows;
 mod story;
 
