@@ -15,6 +15,8 @@ pub struct Facts {
     pub labelled: bool,
     /// It stands in brackets or quotes of its own.
     pub wrapped: bool,
+    /// Commas stand between its numbers.
+    pub listed: bool,
     /// Its numbers have a prefix, an h, or are escapes: certainly bytes.
     pub marked: bool,
     /// A number beside it or in the line above says how many bytes it has.

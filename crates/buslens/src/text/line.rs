@@ -98,6 +98,11 @@ impl Run {
         self.tokens
     }
 
+    /// Whether commas stand between its numbers.
+    pub fn is_list(&self) -> bool {
+        self.tokens > 1 && self.separator == b','
+    }
+
     /// What stands between its bytes, `otherwise` where it has only one number so far.
     fn separator_or(&self, otherwise: u8) -> u8 {
         if self.since < 2 { otherwise } else { self.separator }
@@ -539,7 +544,7 @@ impl Scan {
             return at + 1;
         }
         let first = self.hex.len();
-        self.push(hex_value(&line[from..to]), 0, at, to);
+        self.push_marked(hex_value(&line[from..to]), at, to);
         self.join(line, at, to, first, marked(Style::Prefixed));
         to
     }
@@ -591,12 +596,12 @@ impl Scan {
         match (suffixed, text) {
             (true, [_, _] | [_, _, _] | [b'0', _, _, _]) => {
                 let from = if count == 4 { at + 1 } else { at };
-                self.push(hex_value(&line[from..to - 1]), 0, at, to);
+                self.push_marked(hex_value(&line[from..to - 1]), at, to);
                 Token::Bytes(marked(Style::Suffixed))
             }
             (true, [_, _, _, _, _]) => {
-                self.push(hex_value(&text[..2]), 0, at, at + 2);
-                self.push(hex_value(&text[2..4]), 0, at + 2, to);
+                self.push_marked(hex_value(&text[..2]), at, at + 2);
+                self.push_marked(hex_value(&text[2..4]), at + 2, to);
                 Token::Bytes(marked(Style::Suffixed))
             }
             _ => Token::Word,
@@ -618,8 +623,7 @@ impl Scan {
             for pair in (0..count).step_by(2) {
                 let place = if pair == 0 { from } else { from + 2 + pair };
                 let end = from + 2 + (pair + 2).min(count);
-                let value = hex_value(&line[from + 2 + pair..end]);
-                self.push(value, value, place, end);
+                self.push_marked(hex_value(&line[from + 2 + pair..end]), place, end);
             }
             from += 2 + count;
         }
@@ -638,7 +642,7 @@ impl Scan {
         let text = &line[from..to];
         if matches!(text.len(), 1 | 2) && text.iter().all(u8::is_ascii_hexdigit) {
             let first = self.hex.len();
-            self.push(hex_value(text), 0, at, to);
+            self.push_marked(hex_value(text), at, to);
             self.join(line, at, to, first, marked(Style::Prefixed));
         } else {
             self.stranger();
@@ -652,6 +656,11 @@ impl Scan {
             self.decimal.push(decimal);
         }
         self.places.push(Span::new(from, to));
+    }
+
+    /// A byte with a mark of its own is the same in a list of decimal numbers.
+    fn push_marked(&mut self, value: u8, from: usize, to: usize) {
+        self.push(value, value, from, to);
     }
 
     /// Takes the bytes from `first` on into the open run, or begins a new one.
@@ -686,7 +695,9 @@ impl Scan {
                     // `8: 01 03 …`: what stands between them changes behind the first one already.
                     let restart = run.since == 2;
                     let place = if restart { run.second } else { first };
-                    if run.breaks.len() >= BREAKS {
+                    // What was decimal before a break need not be so behind it.
+                    let other = !run.hex && kind.hex;
+                    if run.breaks.len() >= BREAKS || other {
                         self.close();
                         return self.begin(line, at, to, first, kind, (single, padded));
                     }
@@ -864,10 +875,10 @@ impl Scan {
         };
         let Some(byte) = hex(at) else { return at + 1 };
         let first = self.hex.len();
-        self.push(byte, 0, at, at + 4);
+        self.push_marked(byte, at, at + 4);
         let mut to = at + 4;
         while let Some(c) = line.get(to).copied().filter(u8::is_ascii_alphanumeric) {
-            self.push(c, 0, to, to + 1);
+            self.push_marked(c, to, to + 1);
             to += 1;
         }
         self.join(line, at, to, first, marked(Style::Escaped));
@@ -917,7 +928,7 @@ impl Scan {
         let mut from = at + 1;
         while from < to {
             let (byte, length) = character(&line[from..to]);
-            self.push(byte, 0, from, from + length);
+            self.push_marked(byte, from, from + length);
             from += length;
         }
         self.join(line, at, to + 1, first, marked(Style::Escaped));

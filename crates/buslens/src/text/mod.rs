@@ -15,7 +15,7 @@
 //! Whether a piece holds a telegram is not decided here, but by [`crate::dialogue::evidence`]: a counter, a
 //! date or a word of hex letters may well come out as a piece.
 //!
-//! Everything takes linear time, and no line allocates.
+//! Everything takes linear time, and usual lines do not allocate.
 
 mod columns;
 mod dump;
@@ -324,6 +324,7 @@ impl Reader {
             let context = Context { time, joins: self.long || joined, dumped: marked, bare, rest };
             self.emit(line, &run, context, sink);
         }
+        self.marked_bytes(time, sink);
         if !given {
             return self.without_bytes(line, time, sink);
         }
@@ -337,6 +338,33 @@ impl Reader {
             header if placed => *header = None,
             _ => {}
         }
+    }
+
+    /// Gives all bytes of a line that have a mark of their own, where words stand between them: `ADR 01H, CMD
+    /// 03H, address 21H 02H`.
+    fn marked_bytes(&self, time: Option<i64>, sink: &mut dyn FnMut(Event<'_>)) {
+        let runs = || self.scan.runs.iter().filter(|run| run.marked);
+        let longest = runs().map(Run::len).max().unwrap_or_default();
+        let all: usize = runs().map(Run::len).sum();
+        if all == longest || all < SHORTEST {
+            return;
+        }
+        let bytes: Vec<u8> = runs().flat_map(|run| &self.scan.hex[run.first..run.end]).copied().collect();
+        let places: Vec<Span> =
+            runs().flat_map(|run| &self.scan.places[run.first..run.end]).copied().collect();
+        sink(Event::Piece(Piece {
+            bytes: &bytes,
+            decimal: None,
+            breaks: &[],
+            places: &places,
+            line: self.line,
+            offset: self.offset,
+            time,
+            sender: self.scan.sender.map(|(sender, _)| sender),
+            port: None,
+            joins: false,
+            facts: Facts { column: true, ..Facts::default() },
+        }));
     }
 
     /// Gives a run with what is said of it.
@@ -590,6 +618,7 @@ fn facts(line: &[u8], run: &Run, scan: &Scan) -> Facts {
         labelled: is_labelled(line, run),
         wrapped,
         marked: run.marked,
+        listed: run.is_list(),
         of_telegrams: scan.of_telegrams,
         of_leftovers: scan.of_leftovers,
         abridged,

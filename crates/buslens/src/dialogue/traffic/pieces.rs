@@ -166,7 +166,9 @@ impl Traffic {
                 let telegram = &bytes[at..at + length];
                 let known =
                     telegram.get(modbus_tcp::HEADER).is_some_and(|function| self.splitter.knows(*function));
-                if protocol.is(&modbus_tcp::PROTOCOL) && !known && !plain {
+                // A request of RTU for two registers from 0 looks like a header with a function behind it.
+                let told = known || (plain && telegram.len() > modbus_tcp::HEADER + 1);
+                if protocol.is(&modbus_tcp::PROTOCOL) && !told {
                     break;
                 }
                 let checked = (protocol.verdict)(telegram);
@@ -297,8 +299,19 @@ impl Traffic {
         let ends = found.iter().map(|(from, to, ..)| (*from, *to)).chain([(bytes.len(), bytes.len())]);
         for (from, to) in ends {
             if at < from && said {
-                let kept = keep(&mut self.data, &bytes[at..from]);
-                self.unframed(index, &bytes[at..from], at, kept);
+                let rest = &bytes[at..from];
+                let cut = evidence::reading(rest, &self.splitter, self.waiting_at(index))
+                    .filter(|it| it.cut && from == bytes.len());
+                match cut {
+                    Some(reading) => {
+                        let begins = at + reading.from;
+                        self.add(index, &bytes[begins..from], begins, reading.protocol, reading.verdict);
+                    }
+                    None => {
+                        let kept = keep(&mut self.data, rest);
+                        self.unframed(index, rest, at, kept);
+                    }
+                }
             }
             at = to;
         }
@@ -398,7 +411,11 @@ impl Traffic {
         let waiting = self.waiting_at(index);
         let best = readings
             .map(|(from, part)| (from, part, evidence::reading(part, &self.splitter, waiting)))
-            .reduce(|best, other| if bits(&other.2) > bits(&best.2) { other } else { best });
+            .reduce(|best, other| {
+                // Numbers of a list that could be hex and decimal are decimal.
+                let listed = facts.listed && other.1 == decimal && bits(&other.2) == bits(&best.2);
+                if bits(&other.2) > bits(&best.2) || listed { other } else { best }
+            });
         let Some((from, part, reading)) = best else { return };
         let before = self.entries.len();
         let begins = |from: &usize| bytes.get(*from..).is_some_and(|rest| self.is_beginning(index, rest));
