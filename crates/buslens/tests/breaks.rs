@@ -454,7 +454,7 @@ mod found {
     #[test]
     fn each_byte_has_its_place() {
         let options = Options { protocol: Some(PROTOCOLS[0]), ..Options::default() };
-        let report = decode("<-225\0\0225 9 0 1", options);
+        let report = decode("<-225\x00\x00225 9 0 1", options);
         for telegram in &report.telegrams {
             assert_eq!(telegram.line.bytes.len(), telegram.line.places.len(), "{:?}", telegram.line.bytes);
         }
