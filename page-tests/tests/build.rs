@@ -52,7 +52,10 @@ async fn a_sentence_is_enough() -> Result {
     page.press(Key::Enter + "").await?;
     page.settle().await?;
     assert_eq!(page.bytes_in(REQUEST).await?, "01 10 00 D7 00 03 06 00 80 42 F6 E9 79 28 15");
-    assert_eq!((page.holds("Number").await?, page.holds("Value").await?), ("6".to_owned(), "123.456".to_owned()));
+    assert_eq!(
+        (page.holds("Number").await?, page.holds("Value").await?),
+        ("6".to_owned(), "123.456".to_owned())
+    );
     page.close().await
 }
 

@@ -58,7 +58,7 @@ fn answer(
     expect: &dyn Fn(&[u8]) -> Box<dyn Frame>,
     settings: &buslens::tool::Settings,
 ) {
-    for mut reply in replies(request, &settings.frame.profibus) {
+    for mut reply in replies(request, &settings.frame.profibus, None) {
         let bytes = walk::write(reply.frame.as_mut(), &Deviations::default());
         let mut again = expect(&bytes);
         again.answer(&request.content());
