@@ -178,7 +178,7 @@ proptest! {
         assert_tiled(&reading.fields, written.len());
         // The two bits of the service are drawn one by one.
         // A KEB F5 reads 4 bytes, other devices need not.
-        let drawn = ["read-and-write", "read-length"];
+        let drawn = ["read-and-write", "read-length", "no-such-diagnosis"];
         prop_assert!(codes(&reading.fields).iter().all(|code| drawn.contains(code)));
         prop_assert!(reading.deviations(&mut *read).is_empty());
         prop_assert_eq!(walk::write(&mut *read, &Deviations::default()), written);
@@ -229,7 +229,7 @@ proptest! {
         let reading = walk::read(&mut read, &written);
         assert_tiled(&reading.fields, written.len());
         let found = codes(&reading.fields);
-        let drawn = ["read-and-write", "read-length"];
+        let drawn = ["read-and-write", "read-length", "no-such-diagnosis"];
         prop_assert!(found.iter().all(|code| drawn.contains(code)), "{:?}", found);
         prop_assert_eq!(read.kind.spec.key, kind.spec.key);
         prop_assert_eq!((read.slave(), read.sap()), (Some(1), kind.sap));

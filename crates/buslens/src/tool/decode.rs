@@ -265,8 +265,10 @@ impl Report {
                 continue;
             }
             let mut settings = self.settings(index).clone();
-            let (frame, _) = self.read(index);
+            let (frame, reading) = self.read(index);
             let changed = match frame.content() {
+                // The value that a telegram ends in is none.
+                Content::Modbus { .. } if is_cut(&reading) => false,
                 Content::Modbus { pdu, .. } => self.learn_registers(index, pdu, &mut settings.device),
                 Content::Profibus { slave, kind, body } => {
                     let before = settings.frame.profibus.clone();
@@ -332,8 +334,7 @@ impl Report {
             return false;
         }
         let (frame, reading) = self.read(request);
-        // The value that a telegram ends in is none.
-        if field::problems(&reading.fields).iter().any(|problem| problem.code == "truncated") {
+        if is_cut(&reading) {
             return false;
         }
         let Content::Modbus { pdu, .. } = frame.content() else { return false };
@@ -362,6 +363,11 @@ impl Report {
 
 /// The address that all units listen to.
 const TO_ALL: Option<u8> = Some(0);
+
+/// Whether a telegram ends before it should.
+fn is_cut(reading: &walk::Reading) -> bool {
+    field::problems(&reading.fields).iter().any(|problem| problem.code == "truncated")
+}
 
 /// Takes what the values of registers set up.
 fn learn_values(profile: &Profile, access: &Access<'_>, settings: &mut device::Settings) -> bool {

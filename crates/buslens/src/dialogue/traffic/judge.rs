@@ -144,54 +144,11 @@ impl Traffic {
         let threshold = evidence::threshold(weak.iter().filter(|weak| weak.read).count());
         // Telegrams inside of what is none.
         let mut more: Vec<(u32, Vec<Entry>)> = Vec::new();
-        for at in 0..weak.len() {
-            let one = weak[at];
-            let accepted = self.weigh(&one, &known, &gone, &weak, typed, threshold);
-            let entry = &mut self.entries[one.entry as usize];
-            if accepted {
-                let copy = known.is_cut_copy(entry, &self.data);
-                if one.cut || copy.is_some() {
-                    as_cut(entry);
-                }
-                entry.sides = copy.unwrap_or(entry.sides);
-                let checked = self.shapes.are_checked(one.facts.shape) && copy.is_none() && !one.cut;
-                let response = self.entries[one.entry as usize].sides == [false, true];
-                if checked && response && self.lacks_data(one.entry as usize) {
-                    let index = one.entry as usize;
-                    let telegram = bytes(&self.entries[index], &self.data).to_vec();
-                    let verdict = (modbus_rtu::PROTOCOL.verdict)(&telegram);
-                    self.retype(index, &telegram, &modbus_rtu::PROTOCOL, verdict);
-                }
-                continue;
-            }
-            let placed = one.facts.bare || one.facts.said || one.facts.dumped;
-            let copies = if placed { known.cut_copies(bytes(entry, &self.data)) } else { Vec::new() };
-            if !copies.is_empty() {
-                let whole = *entry;
-                gone.insert(one.entry);
-                let copy = |span: Span| Entry {
-                    at: whole.at + span.from as u32,
-                    skip: whole.skip + span.from as u16,
-                    length: span.len() as u16,
-                    ..whole
-                };
-                more.push((one.entry, copies.into_iter().map(copy).collect::<Vec<_>>()));
-                continue;
-            }
-            let repeats = self.repeats(&one, &gone);
-            let entry = &mut self.entries[one.entry as usize];
-            let own = bytes(entry, &self.data);
-            let placed = self.shapes.is_proven(one.facts.shape) && !one.facts.abridged && !one.facts.rest;
-            if placed && !repeats {
-                // The layout says that a telegram stands here: one that is damaged, or noise.
-                let like = own.get(1).is_some_and(|function| self.splitter.knows(*function)) && own[0] <= 247;
-                if !like || known.families[Family::Tcp as usize] {
-                    entry.role = Role::Discarded;
-                    entry.verdict = Verdict::NoCheck;
-                }
-            } else {
-                gone.insert(one.entry);
-                self.passed.push((entry.line, entry.offset));
+        for one in &weak {
+            if self.weigh(one, &known, &gone, &weak, typed, threshold) {
+                self.accept(one, &known);
+            } else if let Some(copies) = self.reject(one, &known, &mut gone) {
+                more.push((one.entry, copies));
             }
         }
         self.take_out_foreign(&mut gone);
@@ -214,6 +171,55 @@ impl Traffic {
         }
         self.take_turns();
         self.settle_passed();
+    }
+
+    /// An entry without a proof is a telegram.
+    fn accept(&mut self, one: &Weak, known: &Known) {
+        let index = one.entry as usize;
+        let entry = &mut self.entries[index];
+        let copy = known.is_cut_copy(entry, &self.data);
+        if one.cut || copy.is_some() {
+            as_cut(entry);
+        }
+        entry.sides = copy.unwrap_or(entry.sides);
+        let response = entry.sides == [false, true];
+        let checked = self.shapes.are_checked(one.facts.shape) && copy.is_none() && !one.cut;
+        if checked && response && self.lacks_data(index) {
+            let telegram = bytes(&self.entries[index], &self.data).to_vec();
+            let verdict = (modbus_rtu::PROTOCOL.verdict)(&telegram);
+            self.retype(index, &telegram, &modbus_rtu::PROTOCOL, verdict);
+        }
+    }
+
+    /// An entry without a proof is none: returns the telegrams without their ends that are in it.
+    fn reject(&mut self, one: &Weak, known: &Known, gone: &mut HashSet<u32>) -> Option<Vec<Entry>> {
+        let whole = self.entries[one.entry as usize];
+        let own = bytes(&whole, &self.data);
+        let placed = one.facts.bare || one.facts.said || one.facts.dumped;
+        let copies = if placed { known.cut_copies(own) } else { Vec::new() };
+        if !copies.is_empty() {
+            gone.insert(one.entry);
+            let copy = |span: Span| Entry {
+                at: whole.at + span.from as u32,
+                skip: whole.skip + span.from as u16,
+                length: span.len() as u16,
+                ..whole
+            };
+            return Some(copies.into_iter().map(copy).collect());
+        }
+        let placed = self.shapes.is_proven(one.facts.shape) && !one.facts.abridged && !one.facts.rest;
+        if !placed || self.repeats(one, gone) {
+            gone.insert(one.entry);
+            self.passed.push((whole.line, whole.offset));
+            return None;
+        }
+        // The layout says that a telegram stands here: one that is damaged, or noise.
+        let like = own.get(1).is_some_and(|function| self.splitter.knows(*function)) && own[0] <= 247;
+        if !like || known.families[Family::Tcp as usize] {
+            let entry = &mut self.entries[one.entry as usize];
+            (entry.role, entry.verdict) = (Role::Discarded, Verdict::NoCheck);
+        }
+        None
     }
 
     /// Who speaks where request and response take turns.

@@ -174,6 +174,7 @@ impl Log {
     /// Takes the bytes for those of another device, or of one that is set up in another way.
     pub fn set_options(&mut self, options: Options) {
         self.options = Options { protocol: self.options.protocol, ..options };
+        self.options.take_device();
         self.find_lessons();
     }
 
@@ -261,7 +262,11 @@ impl Log {
         if own.certainty != Certainty::Open && own.direction == direction && !(turns && number.is_some()) {
             return own;
         }
+        let asked = entry.partner().map(|partner| self.bytes(&self.entries()[partner]));
         match (number, direction) {
+            (Some(_), Direction::Response) if turns && asked == Some(bytes) => {
+                guess(Certainty::Likely, message!("it repeats the request before it, as a confirmation does"))
+            }
             _ if turns && number.is_some() => {
                 guess(Certainty::Likely, message!("request and response take turns"))
             }
@@ -269,7 +274,6 @@ impl Log {
                 guess(Certainty::Likely, message!("telegram {n} answers it", n = n))
             }
             (Some(n), Direction::Response) => {
-                let asked = entry.partner().map(|partner| self.bytes(&self.entries()[partner]));
                 let reason = if asked == Some(bytes) {
                     message!("it repeats telegram {n}, as a response of this function does", n = n)
                 } else {
