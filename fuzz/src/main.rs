@@ -159,7 +159,7 @@ fn work(run: &Run, thread: usize, targets: &[&'static Target], seeds: &Seeds, mu
                         now.input.clone_from(&input);
                     }
                     if let Err(failure) = try_input(target, &input) {
-                        note(run, target, input, failure);
+                        note(run, thread, target, input, failure);
                     }
                     count += 1;
                 }
@@ -189,11 +189,14 @@ fn try_input(target: &Target, input: &[u8]) -> Result<(), (String, String)> {
 }
 
 /// Writes a failing input, made as small as it gets, unless the same place failed before.
-fn note(run: &Run, target: &'static Target, input: Vec<u8>, (place, text): (String, String)) {
+fn note(run: &Run, thread: usize, target: &'static Target, input: Vec<u8>, (place, text): (String, String)) {
     if locked(&run.failures).contains_key(&(target.key, place.clone())) {
         return;
     }
-    let input = smaller(input, |input| try_input(target, input).is_err_and(|(at, _)| at == place));
+    let input = smaller(input, |input| {
+        locked(&run.at[thread]).since = Instant::now();
+        try_input(target, input).is_err_and(|(at, _)| at == place)
+    });
     let text = try_input(target, &input).err().map_or(text, |(_, text)| text);
     let mut failures = locked(&run.failures);
     if failures.contains_key(&(target.key, place.clone())) {

@@ -1,5 +1,7 @@
 //! Inputs: random ones, and seeds with changes.
 
+use std::time::{Duration, Instant};
+
 use buslens::frame::Cargo;
 use buslens::modbus::{DIALECTS, KINDS};
 use buslens::profibus;
@@ -215,6 +217,13 @@ pub fn words(random: &mut Random, between: &str) -> Vec<u8> {
     bytes
 }
 
+/// A few words over and over.
+pub fn repeated(random: &mut Random) -> Vec<u8> {
+    let size = 1 << (10 + random.below(7));
+    let unit: String = (0..1 + random.below(3)).map(|_| random.of(WORDS)).collect();
+    unit.repeat(size / unit.len().max(1) + 1).into_bytes()
+}
+
 /// A line with a telegram.
 fn line(random: &mut Random, seeds: &Seeds, text: &mut String) {
     (0..random.below(3)).for_each(|_| text.push_str(random.of(WORDS)));
@@ -258,26 +267,25 @@ fn disturb(random: &mut Random, bytes: &mut Vec<u8>) {
     }
 }
 
-/// The smallest input of its kind that still fails: leaves out parts, and makes bytes 0, as long as
-/// `fails` says yes.
+/// The smallest input of its kind that still fails, or what was found in some seconds: leaves out parts,
+/// and makes bytes 0, as long as `fails` says yes.
 pub fn smaller(mut input: Vec<u8>, mut fails: impl FnMut(&[u8]) -> bool) -> Vec<u8> {
-    const MOST_TRIES: usize = 4000;
-    let mut tries = 0;
+    const TIME: Duration = Duration::from_secs(8);
+    let start = Instant::now();
     let mut size = input.len() / 2;
-    while size > 0 && tries < MOST_TRIES {
+    while size > 0 && start.elapsed() < TIME {
         let mut at = 0;
-        while at < input.len() && tries < MOST_TRIES {
+        while at < input.len() && start.elapsed() < TIME {
             let mut shorter = input.clone();
             shorter.drain(at..(at + size).min(input.len()));
-            tries += 1;
             if fails(&shorter) { input = shorter } else { at += size }
         }
         size /= 2;
     }
-    for at in 0..input.len().min(MOST_TRIES) {
+    for at in 0..input.len() {
         let mut plainer = input.clone();
         plainer[at] = 0;
-        if input[at] != 0 && fails(&plainer) {
+        if input[at] != 0 && start.elapsed() < TIME && fails(&plainer) {
             input = plainer;
         }
     }

@@ -70,7 +70,7 @@ impl Page {
         let script = "const found = [...document.querySelectorAll('.segments label')].find((label) => \
                       label.textContent.trim() == arguments[0]); \
                       if (!found) throw new Error(`no option says ${arguments[0]}`); found.click()";
-        self.on_what_comes(&script, vec![json!(text)]).await?;
+        self.on_what_comes(script, vec![json!(text)]).await?;
         self.settle().await
     }
 
@@ -79,7 +79,7 @@ impl Page {
         let script = "const found = [...document.querySelectorAll('button, a, summary')].find((it) => it.offsetParent \
             && (it.getAttribute('aria-label') ?? it.textContent.trim()) == arguments[0]); \
             if (!found) throw new Error(`no button is called ${arguments[0]}`); found.click()";
-        self.on_what_comes(&script, vec![json!(name)]).await?;
+        self.on_what_comes(script, vec![json!(name)]).await?;
         self.settle().await
     }
 
@@ -88,7 +88,7 @@ impl Page {
         self.settle().await?;
         let script = "return [...document.querySelectorAll(arguments[0] + ' .byte-strip button')].map((cell) => \
                       cell.textContent).join(' ')";
-        self.on_what_comes(&script, vec![json!(css)]).await?.convert()
+        self.on_what_comes(script, vec![json!(css)]).await?.convert()
     }
 
     /// Lets a script run before the page does, from the next load on.

@@ -40,7 +40,7 @@ pub fn run(names: &[&str]) -> Result {
     steps::run(
         tools::cargo()
             // What tests measure is printed, too.
-            .args(["test", "--package", "page-tests"])
+            .args(["test", "--package", "page-tests", "--no-fail-fast"])
             .args(names)
             .args(["--", "--show-output"])
             .env("BUSLENS_URL", page)

@@ -51,7 +51,7 @@ mod forms {
     fn an_override_beside_an_entry_that_does_not_fit_is_taken() {
         let mut editor = Editor::of(&REQUEST, PROTOCOLS[0], Direction::Request, &Settings::default());
         editor.edit("start", Change::Enter("seven"));
-        editor.edit("crc", Change::Enter("0"));
+        editor.edit("crc", Change::Enter("00 00"));
         assert_eq!(editor.bytes().unwrap(), [0x01, 0x03, 0x00, 0xC8, 0x00, 0x03, 0, 0]);
         // One that does not fit itself leaves what it was.
         editor.edit("crc", Change::Enter("zero"));
@@ -428,6 +428,45 @@ mod builds {
                 Splitter::new(&STANDARD).begins(protocol, place)
             };
             assert_eq!((begins(false), begins(true)), (Begins::More, Begins::Nothing), "{}", protocol.key);
+        }
+    }
+}
+
+/// What the fuzzer found in texts and logs, each with its smallest input.
+mod found {
+    use super::*;
+    use buslens::tool::log::{Input, Log, Reading};
+
+    /// Half a letter was no word and no sign: the reader stood still.
+    #[test]
+    fn halves_of_letters_end() {
+        for bytes in
+            [&b"\xA1\xB2\xC3"[..], b"\xC3", b"\xC9 01 03", b"\xC3\xC3", b"\xB5\x0C?", b"\xE2", b"01\xC3"]
+        {
+            for input in [Input::Auto, Input::Text, Input::Binary] {
+                let reading = Reading { input, ..Reading::default() };
+                let _ = Log::read(bytes, &reading, Options::default());
+                decode(&String::from_utf8_lossy(bytes), Options::default());
+            }
+        }
+    }
+    /// A number before the bytes looked like the first of them: the others had no places.
+    #[test]
+    fn each_byte_has_its_place() {
+        let options = Options { protocol: Some(PROTOCOLS[0]), ..Options::default() };
+        let report = decode("<-225\x00\x00225 9 0 1", options);
+        for telegram in &report.telegrams {
+            assert_eq!(telegram.line.bytes.len(), telegram.line.places.len(), "{:?}", telegram.line.bytes);
+        }
+    }
+
+    /// Over at once: to look at all pieces of a line for each of them takes minutes.
+    #[test]
+    fn lines_of_many_pieces_take_linear_time() {
+        for unit in ["20000000000000.0=", "..99999999999999999999", "len=8 01 ", "(01)x", "-1 g ", "1,g "] {
+            let text = unit.repeat(60_000 / unit.len());
+            let _ = Log::read(text.as_bytes(), &Reading::default(), Options::default());
+            decode(&text, Options::default());
         }
     }
 }

@@ -9,7 +9,7 @@ use buslens::frame::profibus_fdl::Fdl;
 use buslens::modbus::{DIALECTS, KINDS, OTHER_KINDS};
 use buslens::profibus;
 use buslens::tool::examples::{EXAMPLES, Group};
-use buslens::tool::{Options, PROFILES, Verdict, decode};
+use buslens::tool::{Options, PROFILES, PROTOCOLS, Protocol, Verdict, decode};
 use buslens::walk::{self, Deviations};
 
 /// Files below `src/modbus` that are no function code.
@@ -166,5 +166,34 @@ fn new_telegrams_are_harmless() {
         };
         let counts: usize = data.iter().map(|byte| usize::from(*byte)).sum();
         assert!(counts <= 6, "{}: {pdu:02X?}", kind.spec.key);
+    }
+}
+
+/// A protocol is chosen by its label, and kept by its key.
+#[test]
+fn protocols_are_told_apart() {
+    let mut told = BTreeSet::new();
+    for protocol in PROTOCOLS {
+        for word in [protocol.key, protocol.label] {
+            assert!(word.len() > 3 && told.insert(word), "{word:?} twice, or none");
+        }
+    }
+}
+
+/// Of protocols whose both sides speak, a response finds its request.
+#[test]
+fn responses_find_their_requests() {
+    for (protocol, request, response) in [
+        ("modbus-rtu", "01 03 00 C8 00 03 84 35", "01 03 06 00 08 42 A4 F1 DE B0 F8"),
+        ("modbus-tcp", "00 01 00 00 00 06 01 03 00 C8 00 01", "00 01 00 00 00 05 01 03 02 00 08"),
+        ("modbus-ascii", ":010300C8000331", ":0103060008 42A4F1DE39"),
+        ("modbus-pdu", "03 00 C8 00 01", "03 02 00 08"),
+        ("profibus-parameter-channel", "41 00 22 00 00 00 00 00", "71 00 22 00 00 00 00 46"),
+        ("profibus-user-data", "41 00 22 00 00 00 00 00 04 00 05 DC", "71 00 22 00 00 00 00 46 00 01 05 DC"),
+    ] {
+        let options = Options { protocol: Protocol::of(protocol), ..Options::default() };
+        let report = decode(&format!("{request}\n{}", response.replace(' ', "")), options);
+        let pairs: Vec<_> = report.telegrams.iter().map(|it| (it.answered_by, it.answers)).collect();
+        assert_eq!(pairs, [(Some(1), None), (None, Some(0))], "{protocol}");
     }
 }

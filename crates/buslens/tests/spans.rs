@@ -5,8 +5,11 @@ mod tiles;
 
 use std::path::Path;
 
-use buslens::field::{Field, Span};
+use buslens::field::{Direction, Field, Span, hex};
+use buslens::frame::Cargo;
+use buslens::profibus::{Kind, Service, Settings};
 use buslens::tool::{Options, PROFILES, PROTOCOLS, Profile, Protocol, decode, json};
+use buslens::walk::{self, Deviations};
 use tiles::assert_tiled;
 
 /// The smallest inputs that once ended the page: device, protocol, bytes.
@@ -101,4 +104,28 @@ fn vectors() -> Vec<String> {
     }
     texts.sort();
     texts
+}
+
+/// What is wrong with a job stands where its parameter channel does, in a frame, too.
+#[test]
+fn problems_of_jobs_stand_at_their_channel() {
+    let fdl = Protocol::of("profibus-fdl").unwrap();
+    let request = |index: u16| {
+        let kind = Kind::of(None, Direction::Request);
+        let mut body = (kind.new)(&Settings::default());
+        let channel = body.channel_mut().unwrap();
+        channel.ask(Service::Read, 4, 1);
+        channel.index = index;
+        let mut frame = (fdl.carry)(1, Cargo::Profibus(kind, body)).unwrap();
+        hex(&walk::write(frame.as_mut(), &Deviations::default()))
+    };
+    let report = decode(&format!("{}\n{}", request(0x2200), request(0x2201)), Options::default());
+    let detail = report.detail(1).unwrap();
+    let problem = &detail.step.as_ref().unwrap().problems[0];
+    let mut control = None;
+    detail.fields.iter().for_each(|field| {
+        field.visit(&mut |field| control = control.or((field.spec.key == "control").then_some(field.span)));
+    });
+    assert_eq!((problem.code, Some(problem.span)), ("handshake-not-changed", control));
+    assert_eq!(problem.span, Span::new(7, 8));
 }

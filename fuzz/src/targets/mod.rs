@@ -7,6 +7,7 @@ mod frame;
 mod law;
 mod link;
 mod log;
+mod long;
 mod settings;
 mod splitter;
 mod telegram;
@@ -40,6 +41,7 @@ pub static TARGETS: &[&Target] = &[
     &link::TARGET,
     &settings::TARGET,
     &form::TARGET,
+    &long::TARGET,
     &cause::TARGET,
     &word::TARGET,
 ];

@@ -217,7 +217,8 @@ impl Scan {
                 b'S' | b'E' if at == first && self.runs.is_empty() => {
                     self.label(line, at).unwrap_or_else(|| self.word(line, at, numbers))
                 }
-                _ if is_word(c) => self.word(line, at, numbers),
+                // A letter can be cut, or its first byte one of another kind.
+                _ if is_word(c) && word_end(line, at) > at => self.word(line, at, numbers),
                 0x80.. => self.sign(line, at),
                 b' ' | b'\t' | b'|' => {
                     match self.open.as_ref().is_some_and(|run| self.is_column(line, run)) {
@@ -394,7 +395,14 @@ impl Scan {
     /// Whether another number of the line says how many bytes `run` has.
     pub fn is_counted(&self, line: &[u8], run: &Run) -> bool {
         let number = |other: &Run| other.tokens == 1 && decimal(other.span.of(line)) == Some(run.len());
-        run.len() > 1 && self.runs.iter().any(|other| other.first != run.first && number(other))
+        run.len() > 1 && self.near(run).iter().any(|other| other.first != run.first && number(other))
+    }
+
+    /// The runs around `run`: of a line with thousands, those far away say nothing of it.
+    pub fn near(&self, run: &Run) -> &[Run] {
+        const NEAR: usize = 32;
+        let at = self.runs.partition_point(|other| other.first < run.first);
+        &self.runs[at.saturating_sub(NEAR)..self.runs.len().min(at + NEAR)]
     }
 
     /// The last number of the line, in decimal; 0 if there is none.

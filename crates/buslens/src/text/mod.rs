@@ -371,7 +371,7 @@ impl Reader {
     fn emit(&mut self, line: &[u8], run: &Run, context: Context, sink: &mut dyn FnMut(Event<'_>)) {
         let Self { scan, header, form, breaks, .. } = self;
         let header = header.as_ref().filter(|_| context.bare || context.dumped || header_fits(scan));
-        let alone = scan.runs.iter().filter(|run| run.len() >= SHORTEST).count() <= 1;
+        let alone = scan.near(run).iter().filter(|run| run.len() >= SHORTEST).count() <= 1;
         let after = scan.sender.filter(|(_, weight)| *weight == Weight::Strong && alone);
         let own = run.sender.or(after).map(|(sender, _)| sender);
         let sender = own.or(header.and_then(|header| header.sender));
@@ -624,7 +624,7 @@ fn facts(line: &[u8], run: &Run, scan: &Scan) -> Facts {
         abridged,
         slips: scan.words == 0
             && (scan.slips > 0
-                || scan.runs.iter().any(|other| other.first != run.first && other.span.len() == 1)),
+                || scan.near(run).iter().any(|other| other.first != run.first && other.span.len() == 1)),
         shape,
         ..Facts::default()
     }

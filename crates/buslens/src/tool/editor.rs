@@ -136,6 +136,11 @@ impl Editor {
                 let protocols = protocol.iter().chain(PROTOCOLS);
                 protocols.filter_map(|protocol| Self::new(offer, 1, protocol, settings).ok()).next()?
             }
+            None if let (Some(protocol), Some(direction), Some(bytes)) =
+                (protocol, link.options.direction, plain(&link.text)) =>
+            {
+                Self::of(&bytes, protocol, direction, settings)
+            }
             None => {
                 let report = decode(&link.text, link.options.clone());
                 let first = report.telegrams.first()?;
@@ -329,6 +334,12 @@ impl Editor {
     pub fn edit(&mut self, path: &str, change: Change) {
         self.entries.edit(self.subject.telegram(), path, change);
     }
+}
+
+/// The bytes of a text that is nothing but them, as an editor's [`link`](Editor::link) has it.
+fn plain(text: &str) -> Option<Vec<u8>> {
+    let byte = |pair: &str| u8::from_str_radix(pair, 16).ok().filter(|_| pair.len() == 2);
+    text.split(' ').map(byte).collect()
 }
 
 impl Subject {

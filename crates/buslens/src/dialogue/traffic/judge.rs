@@ -480,8 +480,8 @@ impl Traffic {
     }
 }
 
-/// A telegram on a serial line, and which sides it can be of.
-type Body = (Vec<u8>, [bool; 2]);
+/// The bytes of a telegram, and which sides it can be of.
+type Sided = (Vec<u8>, [bool; 2]);
 
 /// What the telegrams with a proof say of the others.
 struct Known {
@@ -490,7 +490,7 @@ struct Known {
     /// Of which [`Family`] there are some.
     families: [bool; 3],
     /// The telegrams on serial lines by their first bytes, and which sides they can be of.
-    bodies: HashMap<[u8; 4], Vec<Body>>,
+    bodies: HashMap<[u8; 4], Vec<Sided>>,
 }
 
 impl Known {

@@ -12,6 +12,7 @@ mod list;
 #[cfg(feature = "captures")]
 mod packets;
 mod pictures;
+mod places;
 mod rows;
 mod story;
 

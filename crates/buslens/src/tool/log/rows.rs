@@ -1,12 +1,13 @@
 //! Telegrams of a log read as far as anywhere else: with all their fields.
 
-use super::{Entry, Format, Log, Role, Source, Way, time_text};
+use super::places::Places;
+use super::{Entry, Format, Log, Role, Source, time_text};
 use crate::dialogue::traffic::latency;
 use crate::dialogue::{self, Candidate, Certainty, Choice, Guess};
 use crate::field::{Direction, Span};
 use crate::frame::{Speaker, Verdict, modbus_ascii, modbus_unchecked};
 use crate::message;
-use crate::text::{self, Event, Line, Piece, Reader, Remark};
+use crate::text::{self, Line};
 use crate::tool::decode::{Options, Report, Summary, Telegram};
 
 impl Log {
@@ -23,11 +24,12 @@ impl Log {
             Err(_) if ordered => indices.binary_search(&index).ok().map(|at| at + lessons.len()),
             Err(_) => indices.iter().position(|other| *other == index).map(|at| at + lessons.len()),
         };
+        let mut places = Places::new(self, source);
         let telegrams = all.iter().filter_map(|index| {
             let entry = self.entries().get(*index)?;
             let partner = entry.partner().and_then(place);
             let number = partner.map(|place| all[place] + 1);
-            let mut telegram = Telegram { number: index + 1, ..self.telegram(entry, source, number) };
+            let mut telegram = Telegram { number: index + 1, ..self.telegram(entry, &mut places, number) };
             match entry.direction {
                 Direction::Request => telegram.answered_by = partner,
                 Direction::Response => telegram.answers = partner,
@@ -177,8 +179,8 @@ impl Log {
     }
 
     /// A telegram as an entry; its partner has this `number`.
-    fn telegram(&self, entry: &Entry, source: &dyn Source, number: Option<usize>) -> Telegram {
-        let line = self.line(entry, source);
+    fn telegram(&self, entry: &Entry, places: &mut Places<'_>, number: Option<usize>) -> Telegram {
+        let line = self.line(entry, places);
         Telegram {
             number: 0,
             unit: entry.unit,
@@ -300,7 +302,7 @@ impl Log {
     }
 
     /// The bytes of a telegram with their places in the file.
-    fn line(&self, entry: &Entry, source: &dyn Source) -> Line {
+    fn line(&self, entry: &Entry, places: &mut Places<'_>) -> Line {
         let bytes = self.bytes(entry).to_vec();
         let number = entry.line as usize;
         if entry.line == 0 {
@@ -312,50 +314,13 @@ impl Log {
             let span = Span::new(from, from + places.len());
             return Line { number, span, places, bytes, ..Line::default() };
         }
-        let (places, remarks) = self.places(entry, source);
+        let (places, remarks) = places.of(entry);
         let span = match (places.first(), places.last()) {
             (Some(first), Some(last)) => Span::new(first.from, last.to),
             _ => Span::new(entry.offset as usize, entry.offset as usize),
         };
         let colon = entry.protocol().is(&modbus_ascii::PROTOCOL);
         Line { number, span, places, bytes, colon, remarks }
-    }
-
-    /// Reads the lines of a telegram again, for the places of its bytes, and for what in a line of bytes is
-    /// none.
-    fn places(&self, entry: &Entry, source: &dyn Source) -> (Vec<Span>, Vec<Remark>) {
-        /// A line of a telegram has hardly more.
-        const PART: usize = 4096;
-        const MOST: usize = 1 << 18;
-        let bytes = self.bytes(entry);
-        let offset = u64::from(entry.offset);
-        let mut part = PART;
-        loop {
-            let text = match (&self.transcoded, &self.input) {
-                (Some(text), _) => (&text.as_slice()).read(offset, part),
-                (None, Way::Text(_)) => source.read(offset, part),
-                _ => return (Vec::new(), Vec::new()),
-            };
-            let whole = text.len() < part;
-            let mut search = Search { bytes, skip: usize::from(entry.skip), places: Vec::new(), slips: None };
-            let mut reader = Reader::starting_at(self.form.clone(), offset, entry.line);
-            let mut take = |event: Event<'_>| {
-                if let Event::Piece(piece) = event {
-                    search.take(&piece);
-                }
-            };
-            reader.push(&text, &mut take);
-            reader.finish(&mut take);
-            if search.places.len() >= bytes.len() || whole || part >= MOST {
-                let remarks = search.slips.map(|(from, places)| {
-                    let line = text.get(from - entry.offset as usize..).unwrap_or_default();
-                    let end = line.iter().position(|c| matches!(c, b'\n' | b'\r')).unwrap_or(line.len());
-                    text::remarks(&String::from_utf8_lossy(&line[..end]), from, &places)
-                });
-                return (search.places, remarks.unwrap_or_default());
-            }
-            part *= 4;
-        }
     }
 
     /// The line of the file that begins at `offset`, as text.
@@ -367,75 +332,20 @@ impl Log {
     /// Up to `length` bytes of the file from `offset` on, as text; each byte that is no UTF-8 is one
     /// character of ASCII in it, so that places stay as they are.
     pub fn piece_at(&self, source: &dyn Source, offset: u32, length: usize) -> String {
-        let mut bytes = match &self.transcoded {
+        let bytes = match &self.transcoded {
             Some(text) => (&text.as_slice()).read(offset.into(), length),
             None => source.read(offset.into(), length),
         };
-        while let Err(error) = std::str::from_utf8(&bytes) {
-            let at = error.valid_up_to();
-            bytes[at] = b'?';
+        let mut text = String::with_capacity(bytes.len());
+        for chunk in bytes.utf8_chunks() {
+            text.push_str(chunk.valid());
+            text.extend(chunk.invalid().iter().map(|_| '?'));
         }
-        String::from_utf8(bytes).unwrap_or_default()
+        text
     }
 
     /// How the log is read as far as the devices go.
     pub fn options(&self) -> &Options {
         &self.options
     }
-}
-
-/// The places of a telegram's bytes, put together from the pieces that they came in.
-struct Search<'a> {
-    bytes: &'a [u8],
-    /// How many bytes of its first piece come before it.
-    skip: usize,
-    places: Vec<Span>,
-    /// A line of it has slips: where it begins, and the places of its bytes.
-    slips: Option<(usize, Vec<Span>)>,
-}
-
-impl Search<'_> {
-    fn take(&mut self, piece: &Piece<'_>) {
-        let found = self.places.len();
-        if found >= self.bytes.len() {
-            return;
-        }
-        let base = piece.offset as usize;
-        for reading in [Some(piece.bytes), piece.decimal].into_iter().flatten() {
-            let mut spans: Vec<Span> = piece.places.iter().map(|place| place.shifted(base)).collect();
-            let mut own = reading.to_vec();
-            // Two characters are one byte.
-            if let Some(decoded) = of_characters(reading) {
-                let colon = usize::from(reading.first() == Some(&b':'));
-                let pairs = spans.get(colon..).unwrap_or_default().chunks(2).take(decoded.len());
-                if self.bytes[found..].starts_with(&decoded) {
-                    spans = pairs.map(|pair| Span::new(pair[0].from, pair[pair.len() - 1].to)).collect();
-                    (own, self.skip) = (decoded, 0);
-                }
-            }
-            let skip = if found == 0 { self.skip.min(own.len()) } else { 0 };
-            let wanted = &self.bytes[found..];
-            let length = wanted.len().min(own.len() - skip);
-            if length > 0 && wanted[..length] == own[skip..skip + length] {
-                self.places.extend(&spans[skip..skip + length]);
-                if piece.facts.slips {
-                    self.slips = Some((base, piece.places.iter().map(|place| place.shifted(base)).collect()));
-                }
-                return;
-            }
-        }
-    }
-}
-
-/// The bytes that characters stand for: of a frame of Modbus ASCII, or hex text.
-fn of_characters(characters: &[u8]) -> Option<Vec<u8>> {
-    if characters.first() == Some(&b':') {
-        return modbus_ascii::from_characters(characters);
-    }
-    let digit = |c: &u8| char::from(*c).to_digit(16).map(|digit| digit as u8);
-    let pairs = characters.trim_ascii().chunks(2).map(|pair| match pair {
-        [high, low] => Some(digit(high)? << 4 | digit(low)?),
-        _ => None,
-    });
-    pairs.collect::<Option<Vec<u8>>>().filter(|bytes| bytes.len() >= 4)
 }
