@@ -195,7 +195,7 @@ impl Traffic {
             }
         }
         self.take_out_foreign(&mut gone);
-        let more = self.cut_copies(more, &known);
+        let more = self.take_cut_copies(more, &known);
         if !gone.is_empty() {
             let mut more = more.into_iter().peekable();
             let mut kept = Vec::with_capacity(self.entries.len());
@@ -261,7 +261,7 @@ impl Traffic {
     }
 
     /// Makes entries of telegrams that were found without their ends.
-    fn cut_copies(&mut self, mut more: Vec<(u32, Vec<Entry>)>, known: &Known) -> Vec<(u32, Vec<Entry>)> {
+    fn take_cut_copies(&mut self, mut more: Vec<(u32, Vec<Entry>)>, known: &Known) -> Vec<(u32, Vec<Entry>)> {
         for entry in more.iter_mut().flat_map(|(_, entries)| entries) {
             let own = bytes(entry, &self.data).to_vec();
             entry.set_protocol(&modbus_unchecked::PROTOCOL);
