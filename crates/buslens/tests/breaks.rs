@@ -51,7 +51,7 @@ mod forms {
     fn an_override_beside_an_entry_that_does_not_fit_is_taken() {
         let mut editor = Editor::of(&REQUEST, PROTOCOLS[0], Direction::Request, &Settings::default());
         editor.edit("start", Change::Enter("seven"));
-        editor.edit("crc", Change::Enter("0"));
+        editor.edit("crc", Change::Enter("00 00"));
         assert_eq!(editor.bytes().unwrap(), [0x01, 0x03, 0x00, 0xC8, 0x00, 0x03, 0, 0]);
         // One that does not fit itself leaves what it was.
         editor.edit("crc", Change::Enter("zero"));

@@ -434,7 +434,7 @@ mod tests {
             put_back(&mut settings, first);
             assert_eq!(differences(&settings).len(), left);
         }
-        assert_eq!(write(&settings), "");
+        assert_eq!(write(&settings), write(&Settings::default()));
     }
 
     #[test]
