@@ -164,6 +164,10 @@ fn verdict(protocol: &Protocol, bytes: &[u8]) -> Verdict {
 
 fn unchecked(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
     let (first, pdu) = bytes.split_first()?;
+    // Nobody reads from all units.
+    if *first == 0 && matches!(pdu.first(), Some(1..=4 | 100)) {
+        return None;
+    }
     let bits = unit(*first) + structure(pdu, splitter)?;
     Some(without_check(0, bits, false))
 }
@@ -204,7 +208,15 @@ fn cut(bytes: &[u8], splitter: &Splitter, waiting: Option<Waiting>) -> Option<Re
         }
     }
     let [first, code, count, ..] = *bytes else { return None };
-    let [_, response] = splitter.rtu_lengths(bytes);
+    let [request, response] = splitter.rtu_lengths(bytes);
+    if let ([_, 15 | 16 | 101, _, _, high, low, count, ..], Some(request)) = (bytes, request) {
+        let (quantity, width) =
+            (u32::from(u16::from_be_bytes([*high, *low])), if code == 101 { 4 } else { 2 });
+        let counts = u32::from(*count) == if code == 15 { quantity.div_ceil(8) } else { quantity * width };
+        let missing = request.checked_sub(bytes.len()).filter(|missing| counts && *missing > 0)?;
+        let bits = unit(first) + function(code) + 8 + CUT;
+        return is_cut(bytes, missing, false).then(|| without_check(0, bits, true));
+    }
     let even = count % 2 == 0 || matches!(code, 1 | 2);
     let missing = response?.checked_sub(bytes.len()).filter(|missing| *missing > 0)?;
     if code & EXCEPTION != 0 || !even || count == 0 || count > 250 || !matches!(code, 1..=4 | 23 | 100) {

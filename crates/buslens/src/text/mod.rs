@@ -289,7 +289,9 @@ impl Reader {
 
     /// Gives the runs of a line that can be bytes of a telegram.
     fn runs(&mut self, line: &[u8], time: Option<i64>, marked: bool, sink: &mut dyn FnMut(Event<'_>)) {
-        let bare = self.scan.words == 0 && self.scan.time.is_none() && self.scan.runs.len() == 1;
+        // A digit that is left over is being typed.
+        let runs = self.scan.runs.iter().filter(|run| run.span.len() > 1).count().max(1);
+        let bare = self.scan.words == 0 && self.scan.time.is_none() && runs == 1;
         let joined = self.header.as_ref().is_some_and(|header| header.row > 0) && bare;
         let several = self.scan.runs.iter().filter(|run| run.len() >= SHORTEST).count();
         if several == 0 && !marked && !joined {

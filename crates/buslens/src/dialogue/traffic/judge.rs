@@ -326,7 +326,8 @@ impl Traffic {
             let other = sure
                 || self.settings.bus.is_some_and(|bus| bus == chosen.bus() && bus != own.bus())
                 || (self.lacks_data(index) && !one.cut)
-                || family(chosen) != Family::Serial
+                || (family(chosen) != Family::Serial
+                    && (chosen.fit)(&telegram, &self.settings).bits > COMPANY + 2)
                 || !one.read
                 || chosen.is(&modbus_ascii::PROTOCOL);
             let goes_with = company.contains(&(telegram.len(), chosen.key));

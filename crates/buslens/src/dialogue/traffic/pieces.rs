@@ -480,8 +480,9 @@ impl Traffic {
             self.waiting[port] = waiting;
         }
         if protocol.is(&modbus_unchecked::PROTOCOL) && reading.is_some_and(|reading| reading.cut) {
-            // Requests are short: what is cut is a response.
-            self.entries[before].sides = [false, true];
+            // Requests are short, but for writes: what is cut is a response.
+            let writes = matches!(self.entries[before].function, 15 | 16 | 101);
+            self.entries[before].sides = [writes, !writes];
         }
         if bits(&reading) > 8 {
             self.shapes.look_alike(facts.shape);
