@@ -153,7 +153,7 @@ fn Marks() -> impl IntoView {
     move || {
         let lit = read.lights.pointed.get().or(read.lights.chosen.get().map(|chosen| chosen.span));
         let report = read.report();
-        read.with_text(|text| {
+        read.with_settled(|text| {
             let shown = report.telegrams.get(read.index()).map(|telegram| telegram.line.places.as_slice());
             let lit = match (lit, text.len()) {
                 (Some(lit), ..=LONGEST_LIT) => lit.of(shown.unwrap_or_default()),
@@ -198,7 +198,7 @@ fn Remarks(select: Callback<Span>) -> impl IntoView {
         let mut remarks: Vec<&Remark> = report.lines().flat_map(|line| &line.remarks).collect();
         remarks.sort_by_key(|remark| remark.span.from);
         let total = remarks.len();
-        let items: Vec<_> = read.with_text(|text| {
+        let items: Vec<_> = read.with_settled(|text| {
             let item = |remark: &&Remark| {
                 let (line, column) = place(text, remark.span.from);
                 let (class, span) =

@@ -44,6 +44,9 @@ pub struct ReadState {
     toasts: Toasts,
     devices: DeviceSettings,
     text: RwSignal<String>,
+    /// The text as far as it is read: long ones are read at a pause, so that typing is never held up.
+    settled: RwSignal<String>,
+    settling: StoredValue<Option<Timeout>, LocalStorage>,
     /// The text as it was put in, which notes belong to.
     key: RwSignal<String>,
     /// The file that is read in the place of the text, where it is too large for that, or is none.
@@ -104,17 +107,18 @@ impl ReadState {
     pub fn new() -> Self {
         let (address, toasts, devices) = (expect_context(), expect_context(), expect_context());
         let text = RwSignal::new(String::new());
+        let settled = RwSignal::new(String::new());
         let file = RwSignal::new_local(None::<Opened>);
         let choices = RwSignal::new(Choices::default());
         let options = move || options(&choices.read(), devices);
-        let report = Memo::new(move |_| Shared(Arc::new(text.with(|text| read(text, options())))));
+        let report = Memo::new(move |_| Shared(Arc::new(settled.with(|text| read(text, options())))));
         let mode = Memo::new(move |_| {
             let has_file = file.with(Option::is_some);
             let report = report.get().0;
             let timed = report.telegrams.iter().any(|telegram| telegram.time.is_some());
             match report.telegrams.len() {
                 _ if has_file => Mode::Log,
-                0 if text.with(|text| text.trim().is_empty()) => Mode::Start,
+                0 if settled.with(|text| text.trim().is_empty()) => Mode::Start,
                 n if n > FEW || (n > 2 && timed) => Mode::Log,
                 _ => Mode::Telegrams,
             }
@@ -137,6 +141,8 @@ impl ReadState {
             toasts,
             devices,
             text,
+            settled,
+            settling: StoredValue::new_local(None),
             key: RwSignal::default(),
             file,
             missing: RwSignal::default(),
@@ -160,7 +166,7 @@ impl ReadState {
             let how = self.how();
             let given = match (self.mode.get(), self.file.get()) {
                 (Mode::Log, Some(file)) => Given::File(file.key),
-                (Mode::Log, None) => Given::Text(self.text.get()),
+                (Mode::Log, None) => Given::Text(self.settled.get()),
                 _ => {
                     waiting.set_value(None);
                     if before.flatten().is_some() {
@@ -213,6 +219,11 @@ impl ReadState {
         self.text.with(|text| look(text))
     }
 
+    /// The text that the report is of.
+    pub fn with_settled<T>(&self, look: impl FnOnce(&str) -> T) -> T {
+        self.settled.with(|text| look(text))
+    }
+
     /// What the text holds.
     pub fn report(&self) -> Arc<Report> {
         self.report.get().0
@@ -257,12 +268,26 @@ impl ReadState {
         if text.len() > SMALL {
             return self.load(text);
         }
+        /// What is not longer is read within a frame.
+        const SHORT: usize = 4096;
+        const PAUSE: u32 = 150;
         self.missing.set(None);
         self.editing.set(true);
-        self.text.set(text);
-        self.follow_cursor(cursor);
+        self.text.set(text.clone());
+        let state = *self;
+        let settle = move || {
+            state.settled.set(text);
+            state.follow_cursor(cursor);
+            state.announce();
+        };
+        if self.text.with_untracked(String::len) <= SHORT {
+            self.settling.set_value(None);
+            settle();
+        } else {
+            // What waited before is dropped, and so never done.
+            self.settling.set_value(Some(Timeout::new(PAUSE, settle)));
+        }
         self.address.typed();
-        self.announce();
     }
 
     /// The cursor moved in the input.
@@ -318,8 +343,10 @@ impl ReadState {
     fn put(&self, text: String) {
         self.missing.set(None);
         self.file.set(None);
+        self.settling.set_value(None);
         self.key.set(format!("text {:x}", hash(&text)));
-        self.text.set(text);
+        self.text.set(text.clone());
+        self.settled.set(text);
     }
 
     /// What is about to be replaced can be had again.
@@ -375,7 +402,9 @@ impl ReadState {
         self.offer_undo();
         self.missing.set(None);
         self.editing.set(false);
+        self.settling.set_value(None);
         self.text.set(String::new());
+        self.settled.set(String::new());
         self.choices.update(|choices| choices.marks = None);
         self.file.set(Some(Opened { name, key: key.clone(), blob: blob.clone() }));
         self.address.chosen();
