@@ -314,7 +314,7 @@ impl Telegram for Draft {
             return Ok(());
         }
         let (task, count) = (self.task, self.more.len());
-        w.list(&MORE, &mut self.more, count, Some(self.number + 1), |w, more| {
+        w.list(&MORE, &mut self.more, count, Some(self.number.saturating_add(1)), |w, more| {
             let more = more.get_or_insert_with(|| task.content());
             w.within(&CONTENT, &mut |w| more.walk(w))
         })

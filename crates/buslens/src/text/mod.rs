@@ -263,10 +263,13 @@ impl Reader {
             Some(marks) => marks.time(line).or(self.scan.time),
             None => self.scan.time,
         };
+        // What does not go on with a list may begin one.
+        if row.is_some() || !self.is_row_of_list(line) {
+            self.end_list(sink);
+        }
         if row.is_none() && self.is_row_of_list(line) {
             return self.take_row_of_list(line, time, sink);
         }
-        self.end_list(sink);
         if self.form.flow.is_some() {
             return match flow::byte(&self.scan).copied() {
                 Some(run) => {

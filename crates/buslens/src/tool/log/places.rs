@@ -49,6 +49,17 @@ impl Kept {
     }
 }
 
+impl Kept {
+    /// Whether all of a telegram stands in it, behind so many other bytes.
+    fn holds(&self, telegram: &[u8], skip: usize) -> bool {
+        let readings = [Some(&self.bytes), self.decimal.as_ref()];
+        readings
+            .into_iter()
+            .flatten()
+            .any(|reading| reading.get(skip..skip + telegram.len()) == Some(telegram))
+    }
+}
+
 impl<'a> Places<'a> {
     pub fn new(log: &'a Log, source: &'a dyn Source) -> Self {
         Self { log, source, part: None }
@@ -71,7 +82,9 @@ impl<'a> Places<'a> {
             // Telegrams come in order mostly.
             let behind = part.last.map(|last| last + usize::from(skip == 0));
             let mut found = Search::default();
-            for start in behind.into_iter().chain([0]) {
+            // Mostly one piece has all of it.
+            let whole = part.pieces.iter().position(|piece| piece.holds(bytes, skip));
+            for start in behind.into_iter().chain(whole).chain([0]) {
                 let mut search = Search { bytes, skip, ..Search::default() };
                 (start..part.pieces.len()).for_each(|at| search.take(at, &part.pieces[at]));
                 if search.places.len() >= found.places.len() {
@@ -169,6 +182,11 @@ impl Search<'_> {
     /// Takes the piece for what comes behind the first `found` bytes, if it is that.
     fn go_on(&mut self, at: usize, piece: &Kept, found: usize) -> bool {
         let wanted = &self.bytes[found..];
+        // A telegram does not go on before it began.
+        let (last, first) = (self.places.last(), piece.places.first());
+        if found > 0 && last.zip(first).is_some_and(|(last, first)| first.from < last.from) {
+            return false;
+        }
         for reading in [Some(&piece.bytes), piece.decimal.as_ref()].into_iter().flatten() {
             let skip = if found == 0 { self.skip.min(reading.len()) } else { 0 };
             let length = wanted.len().min(reading.len() - skip);
