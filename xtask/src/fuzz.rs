@@ -12,7 +12,8 @@ pub fn run(arguments: &[&str]) -> Result {
     steps::run(tools::cargo().args(program).args(arguments))
 }
 
-/// Other inputs each time: what one run does not find, another one may.
+/// The same inputs each time, so that a check fails only for what was changed: to find what nobody knows yet
+/// is for the long runs, which take others each time.
 pub fn short() -> Result {
-    run(&[SHORT])
+    run(&[SHORT, "--seed", "1"])
 }

@@ -20,7 +20,7 @@ use crate::views::later::LaterView;
 use editor::Editor;
 use examples::Examples;
 use open_file::OpenFile;
-use reading::{ReadAs, ReadingChoices};
+use reading::{ProposedDevice, ReadAs, ReadingChoices};
 use start::Start;
 use state::Mode;
 use telegrams::Telegrams;
@@ -63,6 +63,7 @@ fn Input() -> impl IntoView {
             <Editor />
             <div class="input-tools">
                 <ReadAs />
+                <ProposedDevice />
                 <ReadingChoices />
                 <div class="acts">
                     <Examples />

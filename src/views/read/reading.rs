@@ -5,7 +5,7 @@ use leptos::prelude::*;
 use super::ReadState;
 use super::state::Mode;
 use buslens::field::{Direction, count};
-use buslens::tool::{PROFILES, PROTOCOLS, Report};
+use buslens::tool::{PROFILES, PROTOCOLS, Report, proposals};
 
 /// The line that says how the text was read.
 #[component]
@@ -59,6 +59,32 @@ pub fn ReadAs() -> impl IntoView {
             }
             .into_any(),
         )
+    }
+}
+
+/// The device whose manual the telegrams read well by, where none is chosen, with the reason.
+#[component]
+pub fn ProposedDevice() -> impl IntoView {
+    let read = expect_context::<ReadState>();
+    let proposed = Memo::new(move |_| {
+        if read.mode() != Mode::Telegrams {
+            return None;
+        }
+        let best = proposals(&read.report()).into_iter().max_by_key(|proposal| proposal.bits)?;
+        Some((best.device.key, best.text.sentence()))
+    });
+    move || {
+        let (key, reason) = proposed.get()?;
+        let use_it = move |_| read.read_as(|choices| choices.device = key.to_owned());
+        Some(view! {
+            <p class="read-as">
+                {reason}
+                ". "
+                <button type="button" class="button low" on:click=use_it>
+                    "Use it"
+                </button>
+            </p>
+        })
     }
 }
 

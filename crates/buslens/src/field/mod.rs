@@ -117,7 +117,7 @@ pub enum Numbering {
 impl Numbering {
     /// The number of the item `offset` places behind the first one, whose number may be known.
     pub fn new(first: Option<u64>, offset: u64) -> Self {
-        first.map_or(Self::Offset(offset), |first| Self::At(first + offset))
+        first.map_or(Self::Offset(offset), |first| Self::At(first.saturating_add(offset)))
     }
 }
 

@@ -363,7 +363,8 @@ impl Traffic {
         let own = bytes(entry, &self.data);
         let facts = &one.facts;
         // What one person types into an empty page is meant to be one.
-        let meant = one.read || weak.len() == 1 || self.settings.bus.is_some();
+        let alone = weak.len() == 1 && self.entries.len() == 1;
+        let meant = one.read || alone || self.settings.bus.is_some();
         if typed && meant && !facts.abridged {
             return true;
         }
@@ -374,7 +375,8 @@ impl Traffic {
         if (facts.abridged && one.cut) || self.repeats(one, gone) {
             return false;
         }
-        let copies = known.copies(entry, &self.data) && (facts.said || facts.bare || facts.dumped);
+        let placed = (facts.said || facts.bare || facts.dumped) && !facts.of_leftovers;
+        let copies = placed && known.copies(entry, &self.data);
         if !one.read {
             return copies;
         }

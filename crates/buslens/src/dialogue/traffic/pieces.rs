@@ -167,7 +167,9 @@ impl Traffic {
                 let known =
                     telegram.get(modbus_tcp::HEADER).is_some_and(|function| self.splitter.knows(*function));
                 // A request of RTU for two registers from 0 looks like a header with a function behind it.
-                let told = known || (plain && telegram.len() > modbus_tcp::HEADER + 1);
+                let more = telegram.len() > modbus_tcp::HEADER + 1;
+                let told =
+                    if more { known || plain } else { known && self.protocol.is(&modbus_tcp::PROTOCOL) };
                 if protocol.is(&modbus_tcp::PROTOCOL) && !told {
                     break;
                 }

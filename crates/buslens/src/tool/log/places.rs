@@ -16,8 +16,6 @@ pub(super) struct Places<'a> {
 /// Lines from the beginning of one on, with their pieces.
 struct Part {
     offset: u32,
-    /// How much was to be read.
-    wanted: usize,
     text: Vec<u8>,
     pieces: Vec<Kept>,
     /// The piece that the last telegram began in: the next one begins there, if bytes of others come
@@ -71,33 +69,20 @@ impl<'a> Places<'a> {
         const PART: usize = 4096;
         const MOST: usize = 1 << 18;
         let bytes = self.log.bytes(entry);
-        let same = |part: &Part| part.offset == entry.offset;
-        let mut wanted = self.part.as_ref().filter(|part| same(part)).map_or(PART, |part| part.wanted);
+        // Mostly its line was read with those before it.
+        if let Some(part) = self.part.as_mut().filter(|part| part.covers(entry)) {
+            let found = part.search(entry, bytes);
+            if found.places.len() >= bytes.len() {
+                return part.take(found);
+            }
+        }
+        let mut wanted = PART;
         loop {
-            if !self.part.as_ref().is_some_and(|part| same(part) && part.wanted == wanted) {
-                self.part = self.read(entry, wanted);
-            }
+            self.part = self.read(entry, wanted);
             let Some(part) = &mut self.part else { return (Vec::new(), Vec::new()) };
-            let skip = usize::from(entry.skip);
-            // Telegrams come in order mostly.
-            let behind = part.last.map(|last| last + usize::from(skip == 0));
-            let mut found = Search::default();
-            // Mostly one piece has all of it.
-            let whole = part.pieces.iter().position(|piece| piece.holds(bytes, skip));
-            for start in behind.into_iter().chain(whole).chain([0]) {
-                let mut search = Search { bytes, skip, ..Search::default() };
-                (start..part.pieces.len()).for_each(|at| search.take(at, &part.pieces[at]));
-                if search.places.len() >= found.places.len() {
-                    found = search;
-                }
-                if found.places.len() >= bytes.len() {
-                    break;
-                }
-            }
+            let found = part.search(entry, bytes);
             if found.places.len() >= bytes.len() || part.text.len() < wanted || wanted >= MOST {
-                part.last = Some(found.first);
-                let remarks = found.slips.map_or(Vec::new(), |at| part.remarks(at));
-                return (part.characters(found.places), remarks);
+                return part.take(found);
             }
             wanted *= 4;
         }
@@ -120,17 +105,72 @@ impl<'a> Places<'a> {
         };
         reader.push(&text, &mut take);
         reader.finish(&mut take);
-        Some(Part { offset: entry.offset, wanted, text, pieces, last: None })
+        Some(Part { offset: entry.offset, text, pieces, last: None })
     }
 }
 
 impl Part {
-    /// What in the line of piece `at` is no byte.
-    fn remarks(&self, at: usize) -> Vec<Remark> {
+    /// Whether the line of `entry` is among those that were read.
+    fn covers(&self, entry: &Entry) -> bool {
+        (self.offset..self.offset.saturating_add(self.text.len() as u32)).contains(&entry.offset)
+    }
+
+    /// The places of the bytes of `entry`, as far as they are there.
+    fn search<'a>(&self, entry: &Entry, bytes: &'a [u8]) -> Search<'a> {
+        let (skip, base) = (usize::from(entry.skip), entry.offset as usize);
+        let line = self.pieces.partition_point(|piece| piece.base < base);
+        // Telegrams come in order mostly.
+        let behind = self.last.map(|last| last + usize::from(skip == 0)).filter(|behind| *behind >= line);
+        // Mostly one piece has all of it.
+        let own = self.pieces[line..].iter().take_while(|piece| piece.base == base);
+        let whole = own.into_iter().position(|piece| piece.holds(bytes, skip)).map(|at| line + at);
+        let mut found = Search::default();
+        for start in behind.into_iter().chain(whole).chain([line]) {
+            let mut search = Search { bytes, skip, ..Search::default() };
+            for (at, piece) in self.pieces.iter().enumerate().skip(start) {
+                search.take(at, piece);
+                if search.places.len() >= bytes.len() {
+                    return search;
+                }
+            }
+            if search.places.len() >= found.places.len() {
+                found = search;
+            }
+        }
+        found
+    }
+
+    /// What was found is the telegram's.
+    fn take(&mut self, found: Search<'_>) -> (Vec<Span>, Vec<Remark>) {
+        self.last = Some(found.first);
+        let remarks = found.slips.map_or(Vec::new(), |at| self.remarks(at, &found.places));
+        (self.characters(found.places), remarks)
+    }
+
+    /// What in the line of piece `at` is no byte, near the `telegram` that stands at these places.
+    fn remarks(&self, at: usize, telegram: &[Span]) -> Vec<Remark> {
+        /// What is further away is of other telegrams, and nobody reads more.
+        const NEAR: usize = 64;
+        const MOST: usize = 20;
         let Kept { base, places, .. } = &self.pieces[at];
         let line = self.text.get(base - self.offset as usize..).unwrap_or_default();
         let end = line.iter().position(|c| matches!(c, b'\n' | b'\r')).unwrap_or(line.len());
-        text::remarks(&String::from_utf8_lossy(&line[..end]), *base, places)
+        let (first, last) = match telegram {
+            [first, .., last] => (first.from, last.to),
+            [only] => (only.from, only.to),
+            [] => (*base, *base + end),
+        };
+        // Where a word begins, and where one ends.
+        let inside = |at: &usize| line.get(*at).is_some_and(|c| c.is_ascii_alphanumeric() || *c >= 0x80);
+        let from = first.saturating_sub(*base + NEAR).min(end);
+        let from = if from == 0 { 0 } else { (from..end).find(|at| !inside(at)).unwrap_or(end) };
+        let to = (last.saturating_sub(*base) + NEAR).clamp(from, end);
+        let to = (to..end).find(|at| !inside(at)).unwrap_or(end);
+        let near = places.partition_point(|place| place.to < base + from);
+        let mut remarks =
+            text::remarks(&String::from_utf8_lossy(&line[from..to]), base + from, &places[near..]);
+        remarks.truncate(MOST);
+        remarks
     }
 
     /// Places of whole characters: a letter that stands for a byte can have several in UTF-8.
