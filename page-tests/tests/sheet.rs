@@ -19,7 +19,7 @@ async fn the_telegrams_of_read_are_on_the_sheet_and_in_files() -> Result {
     page.until(".telegram h3", "Unit 1 answers: Universal channel 1 = 123.456, good.").await?;
     assert_eq!(page.count(".paper .overview tbody tr").await?, 4);
     assert_eq!(page.count(".telegram").await?, 4);
-    page.until(".causes li", "The digits of byte 4 are swapped: 08h for 80h").await?;
+    page.until(".causes li", "The manual prints it so in section 2.6.3").await?;
     page.until(".paper .overview", "damaged").await?;
     page.fill_in("Title", "Dairy, line 2").await?;
     assert_eq!(page.text(".paper h2").await?, "Dairy, line 2");
