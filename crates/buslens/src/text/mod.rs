@@ -111,7 +111,7 @@ pub struct Reader {
     remembered: Option<i64>,
     list: List,
     columns: Columns,
-    /// Where the lines of [`columns`](Self::columns) are that had nothing else.
+    /// The breaks of the run in hand, see [`Piece::breaks`].
     breaks: Vec<usize>,
 }
 

@@ -1,13 +1,13 @@
 use std::collections::HashMap;
 
 use super::conversation;
-use super::entry::{Entry, Hint, NO_TIME, NOBODY, Role};
+use super::entry::{self, Entry, Hint, NO_TIME, NOBODY, Role, number};
 use super::judge::{Shapes, Weak};
 use super::pieces::Held;
 use crate::dialogue::evidence;
-use crate::field::{Direction, Facts, Span};
+use crate::field::{Direction, Facts};
 use crate::frame::split::{Begins, Place, Splitter, Waiting, can_split};
-use crate::frame::{PROTOCOLS, Protocol, Settings, Verdict, modbus_rtu, modbus_tcp};
+use crate::frame::{Protocol, Settings, Verdict, modbus_rtu, modbus_tcp};
 use crate::modbus::EXCEPTION;
 use crate::walk::crc_residue;
 
@@ -307,8 +307,7 @@ impl Traffic {
 
     /// The bytes of an entry.
     pub fn bytes(&self, entry: &Entry) -> &[u8] {
-        let from = entry.at as usize;
-        Span::new(from, from + usize::from(entry.length)).of(&self.data)
+        entry::bytes(entry, &self.data)
     }
 
     /// How many bytes of memory it takes.
@@ -810,9 +809,4 @@ pub(super) fn has_length(bytes: &[u8]) -> bool {
 /// Whether the check of an RTU frame is right.
 pub(super) fn is_right(bytes: &[u8]) -> bool {
     has_length(bytes) && crc_residue(bytes) == 0
-}
-
-fn number(protocol: &'static Protocol) -> u8 {
-    // The usual one is the first.
-    PROTOCOLS.iter().position(|known| known.is(protocol)).unwrap_or_default() as u8
 }

@@ -1,7 +1,7 @@
 //! Requests meet their responses.
 
-use super::entry::{Entry, Hint, NOBODY, Role};
-use crate::field::{Direction, Span};
+use super::entry::{Entry, Hint, NOBODY, Role, bytes};
+use crate::field::Direction;
 use crate::frame::{ANY_EXCHANGE, Verdict};
 
 /// What is true for a whole log.
@@ -57,11 +57,6 @@ pub(super) fn join_speakers(entries: &mut [Entry]) {
     if of([true, false]) > 0 && of([false, true]) > 0 {
         entries.iter_mut().for_each(|entry| entry.port = 0);
     }
-}
-
-fn bytes<'a>(entry: &Entry, data: &'a [u8]) -> &'a [u8] {
-    let from = entry.at as usize;
-    Span::new(from, from + usize::from(entry.length)).of(data)
 }
 
 /// Whether two telegrams are the same. Their lengths and checks tell most apart, in one step.

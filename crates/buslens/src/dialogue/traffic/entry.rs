@@ -1,4 +1,4 @@
-use crate::field::Direction;
+use crate::field::{Direction, Span};
 use crate::frame::{PROTOCOLS, Protocol, Verdict};
 
 /// A telegram of a log, in as little room as possible: a log can have millions.
@@ -82,8 +82,7 @@ impl Entry {
     }
 
     pub(super) fn set_protocol(&mut self, protocol: &'static Protocol) {
-        // The usual one is the first.
-        self.protocol = PROTOCOLS.iter().position(|known| known.is(protocol)).unwrap_or_default() as u8;
+        self.protocol = number(protocol);
     }
 
     pub fn protocol(&self) -> &'static Protocol {
@@ -126,4 +125,16 @@ impl Entry {
     pub fn refuses(&self) -> bool {
         (self.direction == Direction::Response) & (self.function & crate::modbus::EXCEPTION != 0)
     }
+}
+
+/// The bytes of an entry in those of all.
+pub(super) fn bytes<'a>(entry: &Entry, data: &'a [u8]) -> &'a [u8] {
+    let from = entry.at as usize;
+    Span::new(from, from + usize::from(entry.length)).of(data)
+}
+
+/// The place of a protocol in [`PROTOCOLS`].
+pub(super) fn number(protocol: &'static Protocol) -> u8 {
+    // The usual one is the first.
+    PROTOCOLS.iter().position(|known| known.is(protocol)).unwrap_or_default() as u8
 }

@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::collect::Traffic;
-use super::entry::{Entry, Hint, Role};
+use super::entry::{Entry, Hint, Role, bytes};
 use crate::dialogue::evidence::{self, CONVERSATION, OTHER_KIND, SAME, SEEN};
 use crate::dialogue::foreign::FT12;
 use crate::dialogue::{Candidate, Certainty, protocols, turns};
@@ -580,11 +580,6 @@ fn as_cut(entry: &mut Entry) {
         entry.verdict = Verdict::NoCheck;
         entry.set_protocol(&modbus_unchecked::PROTOCOL);
     }
-}
-
-fn bytes<'a>(entry: &Entry, data: &'a [u8]) -> &'a [u8] {
-    let from = entry.at as usize;
-    Span::new(from, from + usize::from(entry.length)).of(data)
 }
 
 /// The PDU of a Modbus telegram.
