@@ -1,4 +1,4 @@
-use super::Target;
+use super::{Target, USUAL_MEMORY};
 use super::law::assert_same;
 use super::log::{read, show};
 use crate::{Input, make};
@@ -10,6 +10,7 @@ pub static TARGET: Target = Target {
     key: "capture",
     about: "captures of networks: whole as in pieces of any cut",
     share: 2,
+    memory: USUAL_MEMORY,
     make: |random, seeds| [make::choices(random, CHOICES), make::capture(random, seeds)].concat(),
     run,
 };
