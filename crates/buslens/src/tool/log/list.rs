@@ -189,7 +189,7 @@ impl Log {
     }
 
     /// Whether a response took much longer than is usual for its unit and function.
-    fn is_slow(&self, entry: &Entry) -> bool {
+    pub(super) fn is_slow(&self, entry: &Entry) -> bool {
         /// Less than this nobody notices.
         const LEAST: u32 = 100_000;
         if entry.direction == Direction::Request {
