@@ -20,7 +20,7 @@ use crate::views::later::LaterView;
 use editor::Editor;
 use examples::Examples;
 use open_file::OpenFile;
-use reading::{ProposedDevice, ReadAs, ReadingChoices};
+use reading::{Beside, ProposedDevice, ReadAs, ReadingChoices};
 use start::Start;
 use state::Mode;
 use telegrams::Telegrams;
@@ -61,6 +61,7 @@ fn Input() -> impl IntoView {
     view! {
         <section class="input-bar" aria-label="Input">
             <Editor />
+            <Beside />
             <div class="input-tools">
                 <ReadAs />
                 <ProposedDevice />
