@@ -54,7 +54,8 @@ pub struct Current {
 /// What is known of the open log.
 #[derive(Clone, Copy)]
 pub struct LogState {
-    client: StoredValue<Rc<Client>, LocalStorage>,
+    /// Who reads it, once that part of the module is there.
+    client: StoredValue<Option<Rc<Client>>, LocalStorage>,
     toasts: Toasts,
     /// How it is read: the page takes what it is told for those bytes.
     options: RwSignal<Options>,
@@ -95,15 +96,8 @@ pub struct Unread {
 
 impl LogState {
     pub fn new(toasts: Toasts) -> Self {
-        // The client tells the state, and the state asks the client: one of them comes first.
-        let told = StoredValue::new_local(None::<Self>);
-        let hear = move |answer, beside| {
-            if let Some(state) = told.get_value() {
-                state.hear(answer, beside);
-            }
-        };
-        let state = Self {
-            client: StoredValue::new_local(Client::new(Rc::new(hear))),
+        Self {
+            client: StoredValue::new_local(None),
             toasts,
             options: RwSignal::default(),
             key: RwSignal::default(),
@@ -123,25 +117,33 @@ impl LogState {
             series: RwSignal::default(),
             unread: RwSignal::default(),
             sample: RwSignal::default(),
-        };
-        told.set_value(Some(state));
-        state
+        }
+    }
+
+    /// From now on logs can be opened.
+    pub fn start(self) {
+        let hear = move |answer, beside| self.hear(answer, beside);
+        self.client.set_value(Some(Client::new(Rc::new(hear))));
+    }
+
+    fn client(&self) -> Rc<Client> {
+        self.client.get_value().expect("logs are opened once they can be")
     }
 
     /// Opens a small file in place of the one before.
     pub fn open_bytes(&self, key: &str, bytes: Vec<u8>, how: &How) {
         self.begin(key, bytes.len() as f64, how);
-        self.client.get_value().open_bytes(bytes, how);
+        self.client().open_bytes(bytes, how);
     }
 
     /// Opens a file of any size in place of the one before.
     pub fn open_file(&self, key: &str, file: Blob, how: How) {
         self.begin(key, file.size(), &how);
-        self.client.get_value().open_file(file, how);
+        self.client().open_file(file, how);
     }
 
     pub fn close(&self) {
-        self.client.get_value().close();
+        self.client().close();
         self.forget();
         self.stage.set(Stage::Closed);
     }
@@ -174,7 +176,7 @@ impl LogState {
     }
 
     pub fn ask(&self, request: Request) {
-        self.client.get_value().ask(request);
+        self.client().ask(request);
     }
 
     /// The devices are others, or set up in another way.
