@@ -223,12 +223,14 @@ impl Later {
 pub fn LaterView(part: Part, view: View) -> impl IntoView {
     let later = expect_context::<Later>();
     later.load(part);
-    move || match later.stage(part).get() {
+    move || {
+        match later.stage(part).get() {
         Stage::There(content) => (content.view)(view),
         Stage::Not | Stage::Loading => {
             view! { <p class="coming" role="status">"One moment"</p> }.into_any()
         }
         Stage::Failed => view! { <CouldNotLoad part>"This view could not be loaded: check the connection. What you typed is still here."</CouldNotLoad> }.into_any(),
+    }
     }
 }
 

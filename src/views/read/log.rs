@@ -14,10 +14,10 @@ use crate::components::byte_strip::Lights;
 use crate::components::telegram::Shown;
 use crate::components::toast::Toasts;
 use crate::worker::client::Client;
-use crate::worker::messages::{self, Answer, Choice, Export, Found, How, Request, Value, Which};
+use crate::worker::messages::{self, Answer, Choice, Export, Found, How, Proposed, Request, Value, Which};
 use buslens::field::many;
 use buslens::tool::Options;
-use buslens::tool::log::{Filter, Lanes, Overview, Row};
+use buslens::tool::log::{Filter, Lanes, Overview, Row, Seen};
 
 /// How many rows are asked for at once: more than are in sight.
 pub const ASKED: usize = 80;
@@ -64,6 +64,10 @@ pub struct LogState {
     pub stage: RwSignal<Stage>,
     pub overview: RwSignal<Option<Arc<Overview>>>,
     pub findings: RwSignal<Vec<Found>>,
+    /// The devices that units look like, the surest first.
+    pub proposals: RwSignal<Vec<Proposed>>,
+    /// What lines tell that hold no telegram.
+    pub seen: RwSignal<Vec<Seen>>,
     pub lanes: RwSignal<Lanes>,
     /// How many telegrams the list has.
     pub total: RwSignal<usize>,
@@ -104,6 +108,8 @@ impl LogState {
             stage: RwSignal::default(),
             overview: RwSignal::default(),
             findings: RwSignal::default(),
+            proposals: RwSignal::default(),
+            seen: RwSignal::default(),
             lanes: RwSignal::default(),
             total: RwSignal::default(),
             lists: RwSignal::default(),
@@ -163,6 +169,8 @@ impl LogState {
     fn forget(&self) {
         self.overview.set(None);
         self.findings.set(Vec::new());
+        self.proposals.set(Vec::new());
+        self.seen.set(Vec::new());
         self.lanes.set(Lanes::default());
         self.total.set(0);
         self.rows.set((0, Vec::new()));
@@ -349,6 +357,11 @@ impl LogState {
                     let state = *self;
                     Timeout::new(0, move || state.list()).forget();
                 }
+            }
+            Answer::Beside { mut proposals, seen } => {
+                proposals.sort_by_key(|proposed| std::cmp::Reverse(proposed.bits));
+                self.proposals.set(proposals);
+                self.seen.set(seen);
             }
             Answer::Lanes(lanes) => self.lanes.set(lanes),
             Answer::List(total) => {

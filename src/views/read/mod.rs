@@ -14,9 +14,9 @@ mod times;
 use leptos::ev;
 use leptos::prelude::*;
 
+use crate::address::View;
 use crate::browser::typing::is_typed_into;
 use crate::components::icon::{Glyph, Icon};
-use crate::address::View;
 use crate::later::{CouldNotLoad, Later, LaterView, Part};
 use editor::Editor;
 use examples::Examples;
