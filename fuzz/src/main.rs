@@ -45,7 +45,9 @@ fn main() -> ExitCode {
                 only = TARGETS.iter().copied().find(|target| target.key == key);
                 only.is_some()
             }
-            ["--threads", number] => number.parse().map(|number: NonZero<usize>| threads = number.get()).is_ok(),
+            ["--threads", number] => {
+                number.parse().map(|number: NonZero<usize>| threads = number.get()).is_ok()
+            }
             _ => false,
         };
         if !understood {

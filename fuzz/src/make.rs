@@ -239,7 +239,8 @@ pub fn block(random: &mut Random, seeds: &Seeds) -> Vec<u8> {
 /// Requests of one device in its words, each with what comes back, a line each: some over and over.
 pub fn conversation(random: &mut Random, seeds: &Seeds) -> Vec<u8> {
     let exchanges = &seeds.exchanges[random.below(seeds.exchanges.len())];
-    let few: Vec<&Exchange> = (0..1 + random.below(3)).map(|_| &exchanges[random.below(exchanges.len())]).collect();
+    let few: Vec<&Exchange> =
+        (0..1 + random.below(3)).map(|_| &exchanges[random.below(exchanges.len())]).collect();
     let mut text = String::new();
     for _ in 0..1 + random.below(5) {
         let exchange = few[random.below(few.len())];
@@ -262,7 +263,8 @@ pub fn conversation(random: &mut Random, seeds: &Seeds) -> Vec<u8> {
 /// Gives a response other values, and the check that belongs to them.
 fn valued(random: &mut Random, bytes: &mut [u8]) {
     let Some(length) = bytes.len().checked_sub(2).filter(|length| *length > 3) else { return };
-    let checked = CRC_16_MODBUS.wire(&bytes[..length]) == u64::from(u16::from_be_bytes([bytes[length], bytes[length + 1]]));
+    let checked = CRC_16_MODBUS.wire(&bytes[..length])
+        == u64::from(u16::from_be_bytes([bytes[length], bytes[length + 1]]));
     let end = if checked { length } else { length + 2 };
     for at in 3..end {
         if random.one_in(3) {

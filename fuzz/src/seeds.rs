@@ -57,12 +57,15 @@ impl Seeds {
 fn exchanges(device: &'static Profile) -> Vec<Exchange> {
     let settings = Settings::default();
     let exchange = |task| {
-        let editors = PROTOCOLS.iter().filter_map(|protocol| Editor::new(Offer::Task(task), 5, protocol, &settings).ok());
-        editors.filter_map(|mut editor| {
-            let replies = editor.replies(&settings).into_iter().map(|(_, bytes)| bytes).collect();
-            Some(Exchange { request: editor.bytes().ok()?, replies })
-        })
-        .next()
+        let editors = PROTOCOLS
+            .iter()
+            .filter_map(|protocol| Editor::new(Offer::Task(task), 5, protocol, &settings).ok());
+        editors
+            .filter_map(|mut editor| {
+                let replies = editor.replies(&settings).into_iter().map(|(_, bytes)| bytes).collect();
+                Some(Exchange { request: editor.bytes().ok()?, replies })
+            })
+            .next()
     };
     device.tasks().into_iter().filter_map(exchange).collect()
 }
@@ -83,10 +86,55 @@ fn sentences(table: &str) -> Vec<String> {
 
 /// The words of sentences.
 pub const ASKED: &[&str] = &[
-    "read", "write", "set", "to", "channel", "digital", "limit", "batch", "relay", "good", "on", "off", "6",
-    "40", "0", "123.456", "-1500", "1e9", "0x5F00", "2033h", "40001", "mapping", "entry", "event", "text", "Hello",
-    ";;60", "5.7;10", "factory", "name", "start", "=", "speed", "8E1", "999999999999", "“", "function", "reset",
-    "unit", "all", "bits", "parameter", "reference", "value", "status", "float", "and", "of", ",",
+    "read",
+    "write",
+    "set",
+    "to",
+    "channel",
+    "digital",
+    "limit",
+    "batch",
+    "relay",
+    "good",
+    "on",
+    "off",
+    "6",
+    "40",
+    "0",
+    "123.456",
+    "-1500",
+    "1e9",
+    "0x5F00",
+    "2033h",
+    "40001",
+    "mapping",
+    "entry",
+    "event",
+    "text",
+    "Hello",
+    ";;60",
+    "5.7;10",
+    "factory",
+    "name",
+    "start",
+    "=",
+    "speed",
+    "8E1",
+    "999999999999",
+    "“",
+    "function",
+    "reset",
+    "unit",
+    "all",
+    "bits",
+    "parameter",
+    "reference",
+    "value",
+    "status",
+    "float",
+    "and",
+    "of",
+    ",",
 ];
 
 /// What stands in texts, logs, links and settings.

@@ -64,10 +64,10 @@ pub fn list(program: &Path, part: &Part) -> Result<Vec<Mutant>> {
     for folder in part.folders {
         command.arg("--file").arg(format!("crates/buslens/src/{folder}/**/*.rs"));
     }
-    let output =
-        command.output().map_err(|error| format!("cargo-mutants did not start: {error}."))?;
+    let output = command.output().map_err(|error| format!("cargo-mutants did not start: {error}."))?;
     if !output.status.success() {
         return Err(format!("cargo-mutants: {}", String::from_utf8_lossy(&output.stderr)));
     }
-    serde_json::from_slice(&output.stdout).map_err(|error| format!("cargo-mutants lists no mutants: {error}."))
+    serde_json::from_slice(&output.stdout)
+        .map_err(|error| format!("cargo-mutants lists no mutants: {error}."))
 }

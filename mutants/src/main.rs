@@ -87,7 +87,10 @@ fn tell(mutants: &[Mutant], tried: &[(usize, Outcome)]) {
     println!("{:>6} that no test comes past, or only the compiler", count(Outcome::NotMet));
     println!("{:>6} that do not compile, or not beside others", count(Outcome::NoSwitch));
     let (low, high) = interval(noticed, all);
-    println!("Score: {:.1} % ({low:.1} to {high:.1} %, 95 % sure)", 100.0 * noticed as f64 / all.max(1) as f64);
+    println!(
+        "Score: {:.1} % ({low:.1} to {high:.1} %, 95 % sure)",
+        100.0 * noticed as f64 / all.max(1) as f64
+    );
     for wanted in [Outcome::Survived, Outcome::NotMet] {
         for (number, _) in tried.iter().filter(|(_, outcome)| *outcome == wanted) {
             println!("{wanted:?}: {}", mutants[*number].name);

@@ -309,12 +309,15 @@ fn compile(folder: &Path, arguments: &[&str]) -> Result<(Vec<PathBuf>, Vec<Error
     let (mut binaries, mut errors) = (Vec::new(), Vec::new());
     for said in said.lines().filter_map(|line| serde_json::from_str::<Said>(line).ok()) {
         binaries.extend(said.executable);
-        let Some(message) = said.message.filter(|it| said.reason == "compiler-message" && it.level == "error")
+        let Some(message) =
+            said.message.filter(|it| said.reason == "compiler-message" && it.level == "error")
         else {
             continue;
         };
-        let (places, beside): (Vec<Shown>, Vec<Shown>) = message.spans.into_iter().partition(|it| it.is_primary);
-        let at = |spans: Vec<Shown>| spans.into_iter().map(|span| (span.file_name, span.byte_start)).collect();
+        let (places, beside): (Vec<Shown>, Vec<Shown>) =
+            message.spans.into_iter().partition(|it| it.is_primary);
+        let at =
+            |spans: Vec<Shown>| spans.into_iter().map(|span| (span.file_name, span.byte_start)).collect();
         if !places.is_empty() {
             errors.push(Error { message: message.message, places: at(places), beside: at(beside) });
         }

@@ -194,27 +194,24 @@ impl<'a> Finder<'a> {
         let whole = left.start..right.end;
         let own = operator(&binary.op);
         let of = |instead: &str| -> Vec<Part> {
-            vec![
-                Part::Source(left.clone()),
-                text(format!(" {instead} ")),
-                Part::Source(right.clone()),
-            ]
+            vec![Part::Source(left.clone()), text(format!(" {instead} ")), Part::Source(right.clone())]
         };
         let named = |instead: &str| vec![text(format!("{LEFT} {instead} {RIGHT}"))];
         let lazy = |instead: &str| vec![text(format!("{LEFT} {instead} ")), Part::Source(right.clone())];
-        let assigned = |instead: &str| {
-            vec![Part::Source(left.clone()), text(format!(" {instead} {RIGHT}"))]
-        };
+        let assigned = |instead: &str| vec![Part::Source(left.clone()), text(format!(" {instead} {RIGHT}"))];
         let compares = matches!(own, "==" | "!=" | "<" | "<=" | ">" | ">=");
         let short = whole.len() < 40;
         type Way<'w> = &'w dyn Fn(&str) -> Vec<Part>;
         // What is on both sides is written once, since changes are nested in it.
         let (begin, way): (Vec<Part>, Way) = match own {
             _ if self.constant || compares && short => (Vec::new(), &of),
-            "&&" | "||" => (vec![text("match "), Part::Source(left.clone()), text(format!(" {{ {LEFT} => "))], &lazy),
-            _ if own.len() > 1 && own.ends_with('=') && !compares => {
-                (vec![text("match "), Part::Source(right.clone()), text(format!(" {{ {RIGHT} => "))], &assigned)
+            "&&" | "||" => {
+                (vec![text("match "), Part::Source(left.clone()), text(format!(" {{ {LEFT} => "))], &lazy)
             }
+            _ if own.len() > 1 && own.ends_with('=') && !compares => (
+                vec![text("match "), Part::Source(right.clone()), text(format!(" {{ {RIGHT} => "))],
+                &assigned,
+            ),
             _ => {
                 let by = if compares { "&" } else { "" };
                 let begin = vec![
@@ -317,9 +314,10 @@ impl<'a, 'ast> Visit<'ast> for Finder<'a> {
 
     /// An arm with a guard may leave a value without an arm, which is told at what is matched.
     fn visit_expr_match(&mut self, matched: &'ast syn::ExprMatch) {
-        let arms = matched.arms.iter().filter_map(|arm| {
-            self.by_place.get(&(Genre::MatchArm, place(arm.span().start())))
-        });
+        let arms = matched
+            .arms
+            .iter()
+            .filter_map(|arm| self.by_place.get(&(Genre::MatchArm, place(arm.span().start()))));
         let others: Vec<usize> = arms.flatten().map(|(number, _)| *number).collect();
         if !others.is_empty() {
             let value = range(&*matched.expr);

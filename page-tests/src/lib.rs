@@ -254,14 +254,16 @@ impl Page {
         let read = |process: u64, file: &str| std::fs::read_to_string(format!("/proc/{process}/{file}")).ok();
         let status = |process, key: &str| {
             let text = read(process, "status")?;
-            text.lines().find_map(|line| line.strip_prefix(key)?.split_whitespace().next()?.parse::<u64>().ok())
+            text.lines()
+                .find_map(|line| line.strip_prefix(key)?.split_whitespace().next()?.parse::<u64>().ok())
         };
         let all: Vec<u64> = std::fs::read_dir("/proc")
             .ok()?
             .filter_map(|entry| entry.ok()?.file_name().to_str()?.parse().ok())
             .collect();
         let own = format!("--user-data-dir={}", self.profile.path().display());
-        let started = |process: u64, word: &str| read(process, "cmdline").is_some_and(|line| line.contains(word));
+        let started =
+            |process: u64, word: &str| read(process, "cmdline").is_some_and(|line| line.contains(word));
         // The browser, what it started, and what that started.
         let mut family: Vec<u64> =
             all.iter().copied().filter(|it| started(*it, &own) && !started(*it, "--type=")).collect();

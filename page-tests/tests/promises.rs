@@ -297,7 +297,9 @@ async fn whatever_the_browser_keeps_the_page_starts() -> Result {
 #[tokio::test(flavor = "multi_thread")]
 async fn storage_denied_or_full_breaks_no_view() -> Result {
     let denied = |what: &str| {
-        format!("Object.defineProperty(window, '{what}', {{ get() {{ throw new DOMException('no', 'SecurityError') }} }});")
+        format!(
+            "Object.defineProperty(window, '{what}', {{ get() {{ throw new DOMException('no', 'SecurityError') }} }});"
+        )
     };
     let full = "Storage.prototype.setItem = () => { throw new DOMException('no', 'QuotaExceededError') }; \
                 IDBObjectStore.prototype.put = () => { throw new DOMException('no', 'QuotaExceededError') };";

@@ -12,12 +12,18 @@ mod captures;
 mod devices;
 #[path = "devices_in_logs.rs"]
 mod devices_in_logs;
+#[path = "hypotheses/main.rs"]
+mod hypotheses;
 #[path = "keb.rs"]
 mod keb;
 #[path = "kinds.rs"]
 mod kinds;
 #[path = "laws.rs"]
 mod laws;
+#[path = "logs/main.rs"]
+mod logs;
+#[path = "manuals/main.rs"]
+mod manuals;
 #[path = "memograph.rs"]
 mod memograph;
 #[path = "oracle.rs"]
@@ -32,9 +38,3 @@ mod registry;
 mod spans;
 #[path = "vectors.rs"]
 mod vectors;
-#[path = "hypotheses/main.rs"]
-mod hypotheses;
-#[path = "logs/main.rs"]
-mod logs;
-#[path = "manuals/main.rs"]
-mod manuals;

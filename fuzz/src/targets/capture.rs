@@ -1,6 +1,6 @@
-use super::{Target, USUAL_MEMORY};
 use super::law::assert_same;
 use super::log::{read, show};
+use super::{Target, USUAL_MEMORY};
 use crate::{Input, make};
 use buslens::tool::Options;
 use buslens::tool::log::{Input as Kind, Reading};

@@ -1,5 +1,5 @@
-use super::{Target, USUAL_MEMORY};
 use super::law::assert_tiled;
+use super::{Target, USUAL_MEMORY};
 use crate::{Input, make};
 use buslens::field::{Direction, hex};
 use buslens::frame::Frame;

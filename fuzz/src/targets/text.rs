@@ -1,5 +1,5 @@
-use super::{Target, USUAL_MEMORY};
 use super::law::{assert_exports, assert_telegram};
+use super::{Target, USUAL_MEMORY};
 use crate::{Input, make};
 use buslens::tool::{annotated, decode};
 
