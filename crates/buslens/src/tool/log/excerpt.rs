@@ -140,7 +140,9 @@ impl Excerpt {
     /// The telegrams, to be read as `options` say.
     pub fn report(&self, options: &Options) -> Report {
         let settings = kept_settings(&self.settings);
-        let options = Options { settings, ..options.clone() };
+        let mut options = Options { settings, ..options.clone() };
+        // What links hold is what a person set up; the rest is the device's.
+        options.take_device();
         Report::of(self.telegrams.iter().map(Neighbour::telegram).collect(), options)
     }
 }
@@ -152,11 +154,19 @@ mod tests {
 
     #[test]
     fn a_telegram_says_the_same_elsewhere() {
-        for text in [
-            "10:00:00.000 TX 01 03 00 C8 00 03 84 35\n10:00:00.030 RX 01 03 06 00 80 42 A4 F1 DE B0 F8\n",
-            // Requests that were printed without their checks.
-            ">>> request  01 03 00 c8 00 03\n<<< response 01 03 06 00 80 41 40 00 00 35 43\n\
-             >>> request  01 06 20 64 00 05\n<<< response 01 06 20 64 00 05 03 d6\n",
+        for (device, text) in [
+            (
+                "memograph-rsg45",
+                "10:00:00.000 TX 01 03 00 C8 00 03 84 35\n10:00:00.030 RX 01 03 06 00 80 42 A4 F1 DE B0 F8\n",
+            ),
+            // Requests that were printed without their checksums.
+            (
+                "memograph-rsg45",
+                ">>> request  01 03 00 c8 00 03\n<<< response 01 03 06 00 80 41 40 00 00 35 43\n\
+                 >>> request  01 06 20 64 00 05\n<<< response 01 06 20 64 00 05 03 d6\n",
+            ),
+            // The ident number of another device.
+            ("keb-f5-profibus", "TX 68 0C 0C 68 81 82 5D 3D 3E 88 01 0A 0B 05 EC 00 6A 16\nRX E5\n"),
         ] {
             let options =
                 Options { device: crate::tool::Profile::of("memograph-rsg45"), ..Options::default() };
