@@ -8,6 +8,7 @@ use leptos::prelude::*;
 
 use crate::address::{Address, Shows, View};
 use crate::browser::typing::is_typed_into;
+use crate::components::foot::Foot;
 use crate::components::header::Header;
 use crate::components::toast::{ToastList, Toasts};
 use crate::views::build::BuildState;
@@ -89,6 +90,7 @@ pub fn App() -> impl IntoView {
             <main id="main" tabindex="-1" node_ref=main>
                 {view}
             </main>
+            <Foot />
             <ToastList />
         </div>
     }

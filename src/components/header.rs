@@ -10,8 +10,10 @@ use super::copy_button::copy;
 use super::dialog::Dialog;
 use super::icon::{Glyph, Icon};
 use super::menu::{Menu, MenuItem};
+use super::page_menu::PageMenu;
 use super::toast::Toasts;
 use crate::address::{Address, View};
+use crate::browser::edition::{Edition, edition};
 use crate::browser::storage;
 use crate::browser::typing::is_typed_into;
 
@@ -58,6 +60,7 @@ pub fn Header() -> impl IntoView {
                 <CopyLink />
                 <Theme />
                 <Keys />
+                <PageMenu />
             </div>
         </header>
     }
@@ -76,7 +79,12 @@ fn CopyLink() -> impl IntoView {
                 );
             };
             if copy(toasts, link).await {
-                toasts.say("The link is copied. It holds all that is shown; no server sees it.");
+                toasts.say(match edition() {
+                    Edition::OneFile => {
+                        "The link is copied. It leads to this file, and so only works on this computer."
+                    }
+                    _ => "The link is copied. It holds all that is shown; no server sees it.",
+                });
             }
         });
     };
