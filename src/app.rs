@@ -40,7 +40,15 @@ pub fn App() -> impl IntoView {
     set_timeout(move || later.load(), Duration::from_millis(1500));
     address.keep(Rc::new(States { read, build, check, devices, toasts }));
 
-    Effect::new(move |_| document().set_title(&format!("{} - Buslens", address.view().label())));
+    Effect::new(move |_| {
+        let view = address.view();
+        let about = match view {
+            View::Read | View::Sheet => read.title(),
+            View::Build | View::Check | View::Devices => None,
+        };
+        let about = about.map_or(String::new(), |about| format!(": {about}"));
+        document().set_title(&format!("{}{about} - Buslens", view.label()));
+    });
     let main = NodeRef::<leptos::html::Main>::new();
     // The address holds the view, and so no place in the page.
     let skip = move |event: MouseEvent| {

@@ -248,6 +248,15 @@ impl ReadState {
         self.file.with(|file| file.as_ref().map(|file| file.name.clone()))
     }
 
+    /// What is shown, in a few words: tabs and the browser's history tell pages apart by it.
+    pub fn title(&self) -> Option<String> {
+        match self.mode() {
+            Mode::Start => None,
+            Mode::Telegrams => self.shown.with(|shown| Some(shown.as_ref()?.detail.meaning().sentence())),
+            Mode::Log => Some(self.file_name().unwrap_or_else(|| "pasted log".to_owned())),
+        }
+    }
+
     /// How telegrams are read, with how the devices are set up.
     pub fn options(&self) -> Options {
         options(&self.choices.read(), self.devices)
@@ -452,9 +461,13 @@ impl ReadState {
         let summary = self.report.get_untracked().0.summary();
         match (summary.telegrams, summary.check_failed) {
             (0, _) => {}
-            (n, 0) => self.toasts.announce(format!("{}, no failed check", count(n, "telegram"))),
+            (n, 0) => self.toasts.announce(format!("{}, no wrong checksum", count(n, "telegram"))),
             (n, failed) => {
-                self.toasts.announce(format!("{}, {} failed", count(n, "telegram"), count(failed, "check")));
+                self.toasts.announce(format!(
+                    "{}, {}",
+                    count(n, "telegram"),
+                    count(failed, "wrong checksum")
+                ));
             }
         }
     }

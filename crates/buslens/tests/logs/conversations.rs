@@ -304,7 +304,7 @@ fn the_story_tells_what_is_special() {
     let all = some.statistics();
     assert_eq!((all.exceptions, all.check_failed, all.broadcasts, all.unasked), (1, 1, 1, 1));
     let story: Vec<String> = some.story().iter().map(ToString::to_string).collect();
-    assert!(story[1].contains("1 exception; 1 failed check"), "{story:#?}");
+    assert!(story[1].contains("1 exception; 1 wrong checksum"), "{story:#?}");
     assert!(story.contains(&"1 response without a request".to_owned()), "{story:#?}");
     assert!(story.contains(&"1 request to all, which nobody answers".to_owned()), "{story:#?}");
 }
@@ -359,4 +359,15 @@ fn findings_name_what_is_behind_errors() {
     }
     assert_eq!(found(&lines), [("unit-silent", 10), ("always-refused", 10), ("pauses-within", 10)]);
     assert_eq!(found(&[(0, "Tx", ask(5)), (20, "Rx", answer(5))]), []);
+    // One in ten answers takes 424 ms where 20 ms are usual; two of them would be no finding.
+    let slow = |times: u64| -> Vec<(u64, &str, Vec<u8>)> {
+        let at = |n: u64| n * 1000;
+        let late = |n: u64| if n % 10 == 3 { 424 } else { 20 };
+        (0..times * 10).flat_map(|n| [(at(n), "Tx", ask(5)), (at(n) + late(n), "Rx", answer(5))]).collect()
+    };
+    assert_eq!(found(&slow(2)), []);
+    assert_eq!(found(&slow(5)), [("slow-answers", 5)]);
+    let text = log(&slow(5));
+    let said = read(&text).findings(&text.as_bytes())[0].text.to_string();
+    assert!(said.starts_with("Unit 5: 5 answers took 424 ms or more, usually 20 ms."), "{said}");
 }
