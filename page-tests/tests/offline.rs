@@ -279,7 +279,7 @@ async fn who_hosts_the_page_can_take_it_back() -> Result {
 async fn where_nothing_can_be_kept_the_page_is_silent_and_works() -> Result {
     let folder = tempfile::tempdir()?;
     let log = log(folder.path());
-    let refused = "ServiceWorkerContainer.prototype.register = () => \
+    let refused = "if (globalThis.ServiceWorkerContainer) ServiceWorkerContainer.prototype.register = () => \
                    Promise.reject(new DOMException('not here', 'SecurityError'));";
     let missing =
         "delete Navigator.prototype.serviceWorker; delete Navigator.prototype.locks; delete window.caches;";

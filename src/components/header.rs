@@ -78,7 +78,9 @@ fn CopyLink() -> impl IntoView {
             };
             if copy(toasts, link).await {
                 toasts.say(match edition() {
-                    Edition::OneFile => "Link copied. It leads to this file, and so works on this computer only.",
+                    Edition::OneFile => {
+                        "Link copied. It leads to this file, and so works on this computer only."
+                    }
                     _ => "Link copied. It contains everything shown; nothing is sent to a server.",
                 });
             }
