@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 
 use page_tests::{DESKTOP, Files, Page, Result, Site, dist, next_version, version};
 use serde_json::json;
+use thirtyfour::prelude::*;
 
 const PAIR: &str = "01 03 00 C8 00 03 84 35\n01 03 06 00 80 42 F6 E9 79 5A 93";
 const SAID: &str = "Unit 1 answers";
@@ -318,6 +319,21 @@ async fn the_page_can_be_installed() -> Result {
     page.close().await
 }
 
+/// The installed page is what the system opens files with.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_file_that_the_system_opens_is_read() -> Result {
+    let page = Page::empty(DESKTOP, false).await?;
+    page.before_loading(&format!(
+        "const handle = {{ getFile: () => Promise.resolve(new File([{PAIR:?}], 'plant.txt')) }}; \
+         Object.defineProperty(window, 'launchQueue', {{ value: {{ setConsumer: (take) => take({{ files: [handle] }}) }} }})"
+    ))
+    .await?;
+    page.go("#/check").await?;
+    page.until(".lead h2", SAID).await?;
+    assert_eq!(page.input().await?, PAIR);
+    page.close().await
+}
+
 #[tokio::test(flavor = "multi_thread")]
 async fn the_page_as_one_file_opens_from_a_disk() -> Result {
     let page = Page::open(DESKTOP, false).await?;
@@ -325,6 +341,7 @@ async fn the_page_as_one_file_opens_from_a_disk() -> Result {
     page.until("[role=menuitem]", "Save the page as one file").await?;
     assert_eq!(page.accessibility().await?, [""; 0]);
     let path = page.saved("[role=menuitem]").await?;
+    page.until(".toast", "The page is saved as one file").await?;
     page.close().await?;
     let files = dist();
     assert!(std::fs::read(&path)? == files["buslens.html"], "it is saved as the server has it");
@@ -343,7 +360,10 @@ async fn the_page_as_one_file_opens_from_a_disk() -> Result {
     page.one("main > *").await?;
     page.until(".foot", "offline copy").await?;
     assert_eq!(page.text(".foot > button").await?, format!("Buslens {}", version(&files)));
-    assert_eq!(page.count(".top [aria-label=More]").await?, 0, "it needs not be saved again");
+    page.click(".foot > button").await?;
+    page.until("dialog", "This is the offline copy").await?;
+    assert_eq!(page.count("dialog .button:not(.icon-only)").await?, 0, "it needs not be saved again");
+    page.press(Key::Escape + "").await?;
     page.paste(PAIR).await?;
     page.until(".lead h2", SAID).await?;
     let link = page.fragment().await?;

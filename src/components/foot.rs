@@ -4,15 +4,21 @@ use leptos::prelude::*;
 use leptos::task::spawn_local;
 
 use super::dialog::Dialog;
+use super::icon::{Glyph, Icon};
+use super::page_menu;
 use super::toast::Toasts;
 use crate::address::Address;
-use crate::browser::edition::{self, Edition};
+use crate::browser::edition::{self, Edition, OneFile};
 use crate::views::read::ReadState;
+
+/// Whether the window about the version is open.
+#[derive(Clone, Copy)]
+pub struct AboutIsOpen(pub RwSignal<bool>);
 
 #[component]
 pub fn Foot() -> impl IntoView {
     let (address, read, toasts) = (expect_context(), expect_context(), expect_context::<Toasts>());
-    let is_open = RwSignal::new(false);
+    let AboutIsOpen(is_open) = expect_context();
     let has_newer = RwSignal::new(edition::has_newer());
     let reload = move || spawn_local(reload(address, read, toasts));
     // Said once; who does not take it now finds it here.
@@ -52,6 +58,7 @@ pub fn Foot() -> impl IntoView {
 /// What the version means, and what the browser keeps.
 #[component]
 fn About() -> impl IntoView {
+    let toasts = expect_context::<Toasts>();
     let version = edition::version();
     let (release, build) = version.split_once('+').unwrap_or((&version, ""));
     let kept = match edition::edition() {
@@ -60,14 +67,23 @@ fn About() -> impl IntoView {
              brings the newest version."
         }
         Edition::Hosted => {
-            "This browser has not kept the page so far: without a connection, it may not open. Save it as one \
-             file to have it everywhere."
+            "This browser has not kept the page so far: without a connection, it may not open. As one file it \
+             does, everywhere."
         }
         Edition::OneFile => {
             "This is the offline copy: the whole page in one file. It opens from any disk, asks nobody for \
              anything, and stays as it is. Newer versions are where it was saved from."
         }
         Edition::Development => "This page is being worked on: the browser keeps nothing of it.",
+    };
+    let save = move |one_file: OneFile| {
+        let label = page_menu::label(&one_file);
+        view! {
+            <button type="button" class="button" on:click=move |_| page_menu::save(one_file.clone(), toasts)>
+                <Icon glyph=Glyph::Save />
+                {label}
+            </button>
+        }
     };
     view! {
         <div class="prose">
@@ -76,6 +92,7 @@ fn About() -> impl IntoView {
                 "The build is a fingerprint of every byte of the page: where it is the same, so is the page."
             </p>
             <p>{kept}</p>
+            {edition::one_file().map(save)}
         </div>
     }
 }

@@ -6,6 +6,7 @@ use leptos::wasm_bindgen::JsCast;
 use wasm_bindgen_futures::JsFuture;
 use web_sys::{Blob, Response};
 
+use super::foot::AboutIsOpen;
 use super::icon::Glyph;
 use super::menu::{Menu, MenuItem};
 use super::toast::Toasts;
@@ -15,32 +16,39 @@ use crate::browser::file;
 /// What the page as one file is called where it is saved.
 const NAME: &str = "buslens.html";
 
-/// Nothing where the page cannot be saved, as it is the saved one.
 #[component]
 pub fn PageMenu() -> impl IntoView {
     let toasts = expect_context::<Toasts>();
-    let menu = move |OneFile { address, bytes }: OneFile| {
-        let save = Callback::new(move |()| {
-            let address = address.clone();
-            spawn_local(async move {
-                match fetched(&address).await {
-                    Some(blob) => {
-                        file::save_blob(NAME, &blob);
-                        toasts.say("The page is saved as one file. It opens on any computer, from any disk.");
-                    }
-                    None => toasts.say("The file could not be loaded: check the connection, and try again."),
-                }
-            });
-        });
-        let label = format!("Save the page as one file ({:.1} MB)", bytes as f64 / 1e6);
-        let label = StoredValue::new(label);
-        view! {
-            <Menu label="More" glyph=Glyph::More icon_only=true at_end=true>
-                <MenuItem on_choose=save>{label.get_value()}</MenuItem>
-            </Menu>
-        }
+    let AboutIsOpen(about) = expect_context();
+    let save = move |one_file: OneFile| {
+        let label = label(&one_file);
+        let save = Callback::new(move |()| save(one_file.clone(), toasts));
+        view! { <MenuItem on_choose=save>{label}</MenuItem> }
     };
-    edition::one_file().map(menu)
+    view! {
+        <Menu label="More" glyph=Glyph::More class="page-menu" icon_only=true at_end=true>
+            {edition::one_file().map(save)}
+            <MenuItem on_choose=Callback::new(move |()| about.set(true))>"About this version"</MenuItem>
+        </Menu>
+    }
+}
+
+/// What the deed is called.
+pub fn label(one_file: &OneFile) -> String {
+    format!("Save the page as one file ({:.1} MB)", one_file.bytes as f64 / 1e6)
+}
+
+/// Gives the page as one file to the person to keep.
+pub fn save(one_file: OneFile, toasts: Toasts) {
+    spawn_local(async move {
+        match fetched(&one_file.address).await {
+            Some(blob) => {
+                file::save_blob(NAME, &blob);
+                toasts.say("The page is saved as one file. It opens on any computer, without a connection.");
+            }
+            None => toasts.say("The file could not be loaded: check the connection, and try again."),
+        }
+    });
 }
 
 /// The file at an address.

@@ -9,7 +9,14 @@ const PAUSE = 3000;
 /** How often somebody who leaves the page open is told of new versions, in milliseconds. */
 const HOUR = 3_600_000;
 
-const started = () => setTimeout(() => keep().catch(() => {}), PAUSE);
+const started = () => {
+  setTimeout(() => keep().catch(() => {}), PAUSE);
+  // Where the page is installed, files of a plant are opened with it: src/app.rs takes them.
+  globalThis.launchQueue?.setConsumer(async ({ files }) => {
+    const detail = await files?.[0]?.getFile().catch(() => undefined);
+    if (detail) dispatchEvent(new CustomEvent("openfile", { detail }));
+  });
+};
 
 if (inPage) {
   const folder = new URL("./", location.href);
