@@ -42,7 +42,10 @@ impl Log {
 
     /// Which devices the units look like, where none is chosen; by the beginning of the log.
     pub fn proposals(&self, source: &dyn Source) -> Vec<Proposal> {
-        let indices = self.beginning();
+        /// A device shows in few of them.
+        const ENOUGH: usize = 500;
+        let mut indices = self.beginning();
+        indices.truncate(ENOUGH);
         let mut found = crate::tool::proposals(&self.report(source, &indices));
         for proposal in &mut found {
             proposal.evidence = proposal.evidence.iter().filter_map(|at| indices.get(*at)).copied().collect();

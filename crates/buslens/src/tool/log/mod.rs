@@ -14,6 +14,7 @@ mod packets;
 mod pictures;
 mod places;
 mod rows;
+mod seen;
 mod story;
 
 pub use crate::dialogue::traffic::{Dialog, Entry, Minutes, Role, Statistics};
@@ -24,7 +25,8 @@ pub use findings::Finding;
 pub use format::{Format, Refusal};
 pub use lanes::{Lane, Lanes, Mark};
 pub use list::{Overview, Row, State, Unit, brief};
-pub use pictures::{Bucket, Point, Timeline};
+pub use pictures::{Bucket, Held, Point, Timeline};
+pub use seen::Seen;
 pub use story::time_text;
 
 use std::collections::HashMap;
