@@ -20,7 +20,7 @@ use crate::later::{Later, Part as ModulePart};
 use crate::views::devices::DeviceSettings;
 use crate::worker::client::SMALL;
 use crate::worker::messages::{How, Marked, Part};
-use buslens::field::{Direction, Span, count};
+use buslens::field::{Direction, Span, count, hex};
 use buslens::tool::link::Link;
 use buslens::tool::log::{Reading, State};
 use buslens::tool::{Options, Profile, Protocol, Report, decode, decode_file};
@@ -339,6 +339,21 @@ impl ReadState {
         self.load(text.to_owned());
         self.read_as(|choices| *choices = Choices { device: device.to_owned(), ..Choices::default() });
         self.index.set(first_of_interest(&self.report.get_untracked().0));
+    }
+
+    /// Puts `bytes` in the place of those of the telegram that is shown.
+    pub fn correct(&self, bytes: Vec<u8>) {
+        let (text, Shared(report)) = (self.settled.get_untracked(), self.report.get_untracked());
+        let index = self.index.get_untracked();
+        let places = report.telegrams.get(index).map(|telegram| telegram.line.places.as_slice());
+        let Some([first, .., last]) = places else { return };
+        let (Some(before), Some(behind)) = (text.get(..first.from), text.get(last.to..)) else { return };
+        let text = format!("{before}{}{behind}", hex(&bytes));
+        self.offer_undo();
+        self.put(text);
+        self.index.set(index);
+        self.address.chosen();
+        self.announce();
     }
 
     /// Empties the input.

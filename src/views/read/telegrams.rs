@@ -42,7 +42,7 @@ pub fn Telegrams() -> impl IntoView {
             <div class="columns">
                 <section class="fields-column" aria-label="Fields">
                     <Show when=move || wrong.get()>
-                        {move || read.shown().map(|shown| view! { <Causes shown /> })}
+                        {move || read.shown().map(|shown| view! { <Causes shown on_use=Callback::new(move |bytes| read.correct(bytes)) /> })}
                     </Show>
                     <FieldTable rows lights label="Fields" />
                     {move || read.shown().map(|shown| view! { <More shown lights /> })}
@@ -68,10 +68,22 @@ pub fn Telegrams() -> impl IntoView {
 #[component]
 fn Lead(shown: Shown, lights: Lights) -> impl IntoView {
     let build = href(View::Build, &shown.link());
+    // A cause that is worth believing says what the telegram was before.
+    let cause =
+        shown.causes.first().filter(|cause| cause.hypothesis.is_telling() && shown.undecidable.is_none());
+    let probably = cause.map(|cause| {
+        let (said, what) = (cause.said.sentence(), cause.hypothesis.text(shown.bytes()));
+        view! {
+            <p class="probably">
+                "Probably: " <strong>{said} "."</strong> " " {what.sentence()} "."
+            </p>
+        }
+    });
     view! {
         <section class="lead">
             <div>
                 <h2>{shown.detail.meaning().sentence()} "."</h2>
+                {probably}
                 <Kind shown=shown.clone() />
                 <Problems shown=shown.clone() lights />
             </div>
