@@ -100,8 +100,9 @@ pub fn company(pieces: usize, proven: usize, alike: usize) -> i32 {
 pub fn reading(bytes: &[u8], splitter: &Splitter, waiting: Option<Waiting>) -> Option<Reading> {
     let readings = [
         damaged(bytes, splitter),
-        awaited(bytes, waiting),
+        awaited(bytes, splitter, waiting),
         unchecked(bytes, splitter),
+        of_ascii(bytes, splitter),
         pdu(bytes, splitter),
         cut(bytes, splitter, waiting),
         over_tcp(bytes, splitter),
@@ -141,13 +142,17 @@ fn damaged(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
 }
 
 /// A response that is awaited, whatever is wrong with it: unit and function are those of the request.
-fn awaited(bytes: &[u8], waiting: Option<Waiting>) -> Option<Reading> {
+fn awaited(bytes: &[u8], splitter: &Splitter, waiting: Option<Waiting>) -> Option<Reading> {
     let waiting = waiting?;
     let longest = waiting.length.map_or(modbus_rtu::RTU.longest(), |length| usize::from(length) + 4);
     let begins =
         matches!(bytes, [unit, code, ..] if *unit == waiting.unit && code & !EXCEPTION == waiting.function);
     let bits = CONVERSATION + function(waiting.function) + WRONG;
     let fits = begins && (modbus_rtu::RTU.shortest()..=longest).contains(&bytes.len());
+    // All of it is there but a check.
+    if fits && splitter.sides(&bytes[1..]) != [false; 2] {
+        return Some(without_check(0, bits, false));
+    }
     fits.then(|| Reading {
         protocol: &modbus_rtu::PROTOCOL,
         verdict: verdict(&modbus_rtu::PROTOCOL, bytes),
@@ -174,6 +179,16 @@ fn unchecked(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
 
 fn without_check(from: usize, bits: i32, cut: bool) -> Reading {
     Reading { protocol: &modbus_unchecked::PROTOCOL, verdict: Verdict::NoCheck, from, bits, cut }
+}
+
+/// The bytes that a frame of Modbus ASCII stands for, with a right LRC.
+fn of_ascii(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
+    /// Of 256 other bytes one is right.
+    const LRC: i32 = 8;
+    let checked = modbus_ascii::ASCII.verdict(bytes) == Verdict::Right;
+    let inside = structure(modbus_ascii::ASCII.pdu_bytes(bytes), splitter).filter(|_| checked)?;
+    let bits = unit(*bytes.first()?) + inside + LRC;
+    Some(Reading { protocol: &modbus_ascii::PROTOCOL, verdict: Verdict::Right, from: 0, bits, cut: false })
 }
 
 fn pdu(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
@@ -265,7 +280,10 @@ fn over_profibus(bytes: &[u8]) -> Option<Reading> {
         ([SD2, a, b, SD2, ..], Some(length)) if a == b && length == bytes.len() => {
             reading(24 + WRONG, verdict(&PROTOCOL, bytes), false)
         }
-        ([SD2, a, b, SD2, ..], Some(length)) if a == b && length > bytes.len() && !ends => {
+        // M-Bus begins its frames in the same way, but has other codes where a control byte is.
+        ([SD2, a, b, SD2, _, _, control, ..], Some(length))
+            if a == b && length > bytes.len() && !ends && Fdl::is_control(*control) =>
+        {
             let checked = verdict(&PROTOCOL, bytes) == Verdict::Right;
             reading(16 + CUT, if checked { Verdict::Right } else { Verdict::Unchecked }, true)
         }
@@ -296,6 +314,10 @@ fn function(function: u8) -> i32 {
 /// How much a PDU looks like one: its function is known, its length fits, its numbers can be.
 pub(super) fn structure(pdu: &[u8], splitter: &Splitter) -> Option<i32> {
     const UNLIKELY: i32 = -6;
+    /// The highest sub-function of function 8.
+    ///
+    /// Source: Modbus application protocol V1.1b3, section 6.8.
+    const LAST_DIAGNOSIS: u32 = 20;
     let code = *pdu.first()?;
     let [asks, answers] = splitter.sides(pdu);
     if !asks && !answers {
@@ -320,6 +342,8 @@ pub(super) fn structure(pdu: &[u8], splitter: &Splitter) -> Option<i32> {
             }
         }
         6 => 0,
+        // Of a diagnosis, the sub-function says what it is.
+        8 if number(1) > LAST_DIAGNOSIS => UNLIKELY,
         15 if u32::from(pdu.get(5).copied().unwrap_or_default()) == number(3).div_ceil(8) => 16,
         16 if u32::from(pdu.get(5).copied().unwrap_or_default()) == 2 * number(3) => 16,
         101 if u32::from(pdu.get(5).copied().unwrap_or_default()) == 4 * number(3) => 16,

@@ -581,7 +581,8 @@ impl Scan {
             let letters = count > 2 && !text.iter().any(|c| is_digit(*c));
             let groups = || self.open.as_ref().is_some_and(|run| run.style == Style::Contiguous);
             // Words such as "faced" are no bytes, and a row of bits is none either.
-            if (letters && !self.in_row && !(count == 4 && groups())) || (is_bits(text) && !self.in_row) {
+            let word = letters && !(count == 4 && (groups() || fills_cell(line, at, to)));
+            if !self.in_row && (word || is_bits(text)) {
                 return Token::Word;
             }
             let decimal = digits && count <= 3 && numbers != Some(Numbers::Hex);
@@ -1028,6 +1029,8 @@ fn separator(gap: &[u8]) -> Option<u8> {
     }
     while let Some(c) = gap.get(at) {
         match c {
+            // An ellipsis: bytes are left out.
+            b'.' if gap.get(at + 1) == Some(&b'.') => return None,
             b' ' | b'\t' => blank = true,
             b'*' | b'_' | b'~' => emphasis = if emphasis == 0 { *c } else { emphasis },
             b',' | b';' | b':' | b'.' | b'-' | b'|' | b'/' | b'[' | b']' | b'<' | b'>' | b'"' | b'\''
@@ -1078,9 +1081,20 @@ fn decimal(text: &[u8]) -> Option<usize> {
     (to == text.len()).then(|| usize::try_from(value).ok()).flatten()
 }
 
-/// Whether digits are the bits of a number.
+/// Whether digits are the bits of a number: `00010000`, `0b00010000`.
 fn is_bits(text: &[u8]) -> bool {
-    matches!(text.len(), 8 | 16 | 32) && text.iter().all(|c| matches!(c, b'0' | b'1')) && text.contains(&b'1')
+    let marked = text.starts_with(b"0b") || text.starts_with(b"0B");
+    let bits = if marked { &text[2..] } else { text };
+    matches!(bits.len(), 8 | 16 | 32)
+        && bits.iter().all(|c| matches!(c, b'0' | b'1'))
+        && (marked || bits.contains(&b'1'))
+}
+
+/// Whether `at..to` is all that a cell of a table has, in capital letters: `| BDCB |`.
+fn fills_cell(line: &[u8], at: usize, to: usize) -> bool {
+    let before = line[..at].trim_ascii_end().last();
+    let behind = line[to..].trim_ascii_start().first();
+    before == Some(&b'|') && behind == Some(&b'|') && line[at..to].iter().all(u8::is_ascii_uppercase)
 }
 
 /// A number for a word: the same for the same letters, whatever digits are among them.

@@ -283,9 +283,10 @@ impl Reader {
             let Some(run) = self.scan.runs.first().copied() else {
                 return self.without_bytes(line, time, sink);
             };
-            let context = Context { time, joins: row.continues, dumped: true, ..Context::default() };
-            self.emit(line, &run, context, sink);
-            return self.dump.read(row, run.len());
+            self.dump.read(row, run.len());
+            let sender = self.dump.sender(row);
+            let context = Context { time, joins: row.continues, dumped: true, sender, ..Context::default() };
+            return self.emit(line, &run, context, sink);
         }
         self.runs(line, time, marked.is_some(), sink);
     }
@@ -326,7 +327,8 @@ impl Reader {
             }
             given |= !short || marked || bare;
             placed |= bare || marked || run.said || is_labelled(line, &run);
-            let context = Context { time, joins: self.long || joined, dumped: marked, bare, rest };
+            let context =
+                Context { time, joins: self.long || joined, dumped: marked, bare, rest, sender: None };
             self.emit(line, &run, context, sink);
         }
         self.marked_bytes(time, sink);
@@ -413,7 +415,7 @@ impl Reader {
                 .time
                 .or(header.and_then(|header| header.time))
                 .or(self.remembered.filter(|_| context.dumped || context.bare)),
-            sender: marks.or(sender),
+            sender: marks.or(sender).or(context.sender),
             port: (!port.is_empty()).then_some(port),
             joins: context.joins,
             facts,
@@ -564,6 +566,8 @@ struct Context {
     dumped: bool,
     bare: bool,
     rest: bool,
+    /// Who speaks, where the text does not say it.
+    sender: Option<Sender>,
 }
 
 /// Whether what a header says is said of a line that is not bare: one without words of its own.
@@ -617,7 +621,10 @@ fn facts(line: &[u8], run: &Run, scan: &Scan) -> Facts {
     let placeholder = [b"xx", b"??", b"XX"].iter().any(|sign| behind.starts_with(*sign));
     let ellipsis =
         ["…".as_bytes(), "・・".as_bytes()].iter().any(|sign| memchr::memmem::find(near, sign).is_some());
-    let abridged = !scan.column && (((2..=4).contains(&dots) && ends) || placeholder || ellipsis);
+    // `0103…C40B`: what is before the ellipsis lacks its end, and what is behind it its beginning.
+    let glued = line[run.span.to..].starts_with(b"..") || line[..run.span.from].ends_with(b"..");
+    let dotted = (2..=4).contains(&dots) && ends;
+    let abridged = !scan.column && (dotted || glued || placeholder || ellipsis);
     let shape = run.word ^ (u32::from(lead) << 24) ^ (run.style as u32 + 1).wrapping_mul(0x9E37_79B1);
     Facts {
         labelled: is_labelled(line, run),

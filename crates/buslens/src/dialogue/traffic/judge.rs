@@ -368,11 +368,13 @@ impl Traffic {
         if typed && meant && !facts.abridged {
             return true;
         }
-        // Nothing so short can be told from other things.
-        if own.len() < SHORTEST && *own != [profibus_fdl::SC] {
+        // Nothing so short can be told from other things, but an exception where a request waits for its answer.
+        let in_conversation = self.is_in_conversation(one, own, gone);
+        let exception = entry.function & EXCEPTION != 0 && one.read && in_conversation;
+        if own.len() < SHORTEST && *own != [profibus_fdl::SC] && !exception {
             return false;
         }
-        if (facts.abridged && one.cut) || self.repeats(one, gone) {
+        if (facts.abridged && one.cut) || facts.slips || self.repeats(one, gone) {
             return false;
         }
         let placed = (facts.said || facts.bare || facts.dumped) && !facts.of_leftovers;
@@ -395,7 +397,7 @@ impl Traffic {
         if let [profibus_fdl::SC] = own {
             bits += if known.families[Family::Profibus as usize] { SAME } else { OTHER_KIND };
         }
-        if self.is_in_conversation(one, own, gone) {
+        if in_conversation {
             bits += CONVERSATION;
         }
         bits >= threshold

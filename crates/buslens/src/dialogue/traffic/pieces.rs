@@ -2,7 +2,7 @@
 //! next piece, and what may be one.
 
 use super::collect::{PAUSE, Row, Traffic, is_right, keep};
-use super::entry::{NO_TIME, Role};
+use super::entry::{Hint, NO_TIME, Role};
 use super::judge::Weak;
 use crate::dialogue::evidence::{self, Reading};
 use crate::dialogue::foreign::FOREIGN;
@@ -60,18 +60,11 @@ impl Traffic {
             return self.all_by_hand(index, bytes);
         }
         if facts.column {
-            for reading in [bytes, decimal] {
-                let mut found = Vec::new();
-                self.inside(index, reading, &mut found);
-                self.take_found(index, reading, 0, &found);
-                if !found.is_empty() || self.characters(index, reading, &facts) {
-                    return;
-                }
-            }
-            return self.passed.push((row.line, row.offset));
+            return self.column(index, bytes, decimal, row);
         }
         let twice = (self.latest_piece.0, self.latest_piece.2) == (row.line, row.hint)
-            && self.latest_piece.1 == bytes;
+            && self.latest_piece.1 == bytes
+            && !facts.said;
         if twice && row.line > 0 && bytes.len() > 1 {
             return;
         }
@@ -104,7 +97,6 @@ impl Traffic {
         for reading in [bytes, decimal] {
             self.inside(index, reading, &mut found);
             if !found.is_empty() {
-                self.shapes.count(facts.shape, true);
                 self.take_found(index, reading, 0, &found);
                 return self.take_rest(index, reading, &found, row);
             }
@@ -113,6 +105,33 @@ impl Traffic {
             self.foreign_protocols[foreign] += 1;
         }
         self.unproven(index, bytes, decimal, breaks, row);
+    }
+
+    /// Bytes that stand below each other, or between words: only what is beyond doubt counts. Several columns of
+    /// the same lines, and pieces of the same line, can have the same telegrams.
+    fn column(&mut self, index: usize, bytes: &[u8], decimal: &[u8], row: Row) {
+        let known = self.entries.partition_point(|entry| entry.line < row.line);
+        let known: Vec<(u32, u16)> =
+            self.entries[known..].iter().map(|entry| (entry.at, entry.length)).collect();
+        for reading in [bytes, decimal] {
+            let mut found = Vec::new();
+            if !self.whole(index, reading, false, &mut found) {
+                self.inside(index, reading, &mut found);
+            }
+            let seen = |(from, to, ..): &Found| {
+                known.iter().any(|(at, length)| {
+                    let at = *at as usize;
+                    self.data.get(at..at + usize::from(*length)) == Some(&reading[*from..*to])
+                })
+            };
+            let any = !found.is_empty();
+            found.retain(|telegram| !seen(telegram));
+            self.take_found(index, reading, 0, &found);
+            if any || self.characters(index, reading, &row.facts) {
+                return;
+            }
+        }
+        self.passed.push((row.line, row.offset));
     }
 
     /// A person says that all pieces are telegrams of the protocol.
@@ -151,39 +170,46 @@ impl Traffic {
             found.push((0, bytes.len(), &modbus_rtu::PROTOCOL, Verdict::Right));
             return true;
         }
+        [&modbus_tcp::PROTOCOL, &profibus_fdl::PROTOCOL, &modbus_rtu::PROTOCOL]
+            .into_iter()
+            .any(|protocol| self.leading(index, protocol, bytes, plain, found) == bytes.len())
+    }
+
+    /// Finds the telegrams of `protocol` beyond doubt that begin a piece, one behind the other; returns where they
+    /// end.
+    fn leading(
+        &self,
+        index: usize,
+        protocol: &'static Protocol,
+        bytes: &[u8],
+        plain: bool,
+        found: &mut Vec<Found>,
+    ) -> usize {
+        found.clear();
         let waiting = self.waiting_at(index);
-        for protocol in [&modbus_tcp::PROTOCOL, &profibus_fdl::PROTOCOL, &modbus_rtu::PROTOCOL] {
-            found.clear();
-            let mut at = 0;
-            while at < bytes.len() {
-                let place = Place {
-                    bytes: &bytes[at..],
-                    last: true,
-                    in_step: true,
-                    waiting: waiting.filter(|_| at == 0),
-                };
-                let Begins::Telegram(length) = self.splitter.begins(protocol, place) else { break };
-                let telegram = &bytes[at..at + length];
-                let known =
-                    telegram.get(modbus_tcp::HEADER).is_some_and(|function| self.splitter.knows(*function));
-                // A request of RTU for two registers from 0 looks like a header with a function behind it.
-                let more = telegram.len() > modbus_tcp::HEADER + 1;
-                let told =
-                    if more { known || plain } else { known && self.protocol.is(&modbus_tcp::PROTOCOL) };
-                if protocol.is(&modbus_tcp::PROTOCOL) && !told {
-                    break;
-                }
-                let checked = (protocol.verdict)(telegram);
-                found.push((at, at + length, protocol, checked));
-                at += length;
+        let mut at = 0;
+        while at < bytes.len() {
+            let waiting = waiting.filter(|_| at == 0);
+            let place = Place { bytes: &bytes[at..], last: true, in_step: true, waiting };
+            let Begins::Telegram(length) = self.splitter.begins(protocol, place) else { break };
+            let telegram = &bytes[at..at + length];
+            let known =
+                telegram.get(modbus_tcp::HEADER).is_some_and(|function| self.splitter.knows(*function));
+            // A request of RTU for two registers from 0 looks like a header with a function behind it.
+            let more = telegram.len() > modbus_tcp::HEADER + 1;
+            let told = if more { known || plain } else { known && self.protocol.is(&modbus_tcp::PROTOCOL) };
+            if protocol.is(&modbus_tcp::PROTOCOL) && !told {
+                break;
             }
-            let proven = |(from, to, ..): &Found| to - from > 3;
-            if at == bytes.len() && found.iter().any(proven) {
-                return true;
-            }
+            found.push((at, at + length, protocol, (protocol.verdict)(telegram)));
+            at += length;
+        }
+        // An acknowledgement alone proves nothing.
+        if found.iter().any(|(from, to, ..)| to - from > 3) {
+            return at;
         }
         found.clear();
-        false
+        0
     }
 
     /// Whether bytes are one RTU frame with a right check. A check that is right before the telegram's end says
@@ -203,8 +229,9 @@ impl Traffic {
         let lengths = self.splitter.rtu_lengths(bytes);
         let shorter =
             lengths.into_iter().flatten().any(|length| length < bytes.len() && is_right(&bytes[..length]));
-        let longer = lengths.into_iter().flatten().any(|length| length > bytes.len());
-        self.splitter.sides(pdu) != [false; 2] || (!shorter && !longer)
+        // Only a zero leaves a check right, so that one is all that can be missing.
+        let longer = lengths.into_iter().flatten().any(|length| length == bytes.len() + 1);
+        self.splitter.sides(pdu) != [false; 2] || (bytes.len() > 4 && !shorter && !longer)
     }
 
     /// Takes a piece that is written as the characters of a telegram: a frame of Modbus ASCII, or hex text.
@@ -350,7 +377,11 @@ impl Traffic {
             self.lanes[index].held = Some(held);
             return false;
         }
-        if is_apart(&held, row) {
+        let same = row.facts.shape == held.rows[0].facts.shape;
+        // A number that ends a sentence is no rest of a telegram.
+        let Facts { rest, bare, of_leftovers, .. } = row.facts;
+        let placed = !rest || bare || of_leftovers || same || row.hint != Hint::None;
+        if is_apart(&held, row) || !placed {
             return false;
         }
         let length = held.bytes.len();
@@ -358,7 +389,7 @@ impl Traffic {
         let rest = &joined[held.from..];
         let mut found = Vec::new();
         let whole = self.whole(index, rest, true, &mut found);
-        if whole || self.is_beginning(index, rest) && row.facts.shape == held.rows[0].facts.shape {
+        if whole || self.is_beginning(index, rest) && same {
             let rows =
                 self.lanes[index].rows.iter().map(|row| Row { from: row.from + length as isize, ..*row });
             held.rows.extend(rows);
@@ -451,6 +482,10 @@ impl Traffic {
 
     /// What bytes are as a service of PROFIBUS without its frame.
     fn bare_profibus(&self, bytes: &[u8]) -> Option<Reading> {
+        // What reads as a text is one: `AT+CGMI` and a line end.
+        if bytes.iter().all(|c| matches!(c, b' '..=b'~' | b'\r' | b'\n')) {
+            return None;
+        }
         let bare = PROTOCOLS
             .iter()
             .copied()
