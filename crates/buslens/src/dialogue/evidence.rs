@@ -44,6 +44,8 @@ pub struct Reading {
     pub bits: i32,
     /// Bytes are missing at its end.
     pub cut: bool,
+    /// Its bits count on the request before it.
+    pub awaited: bool,
 }
 
 /// Its place: it answers a request, or is answered.
@@ -118,27 +120,26 @@ pub fn ascii(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
     let pdu = modbus_ascii::ASCII.pdu_bytes(bytes);
     let fits = structure(pdu, splitter).or_else(|| splitter.knows(*bytes.get(1)?).then_some(0));
     let bits = COLON + unit(*bytes.first()?) + fits? + WRONG;
-    Some(Reading { protocol: &modbus_ascii::PROTOCOL, verdict: Verdict::Wrong, from: 0, bits, cut: false })
+    Some(whole(&modbus_ascii::PROTOCOL, Verdict::Wrong, bits))
 }
 
 /// Bytes that are the characters of a frame of Modbus ASCII, whatever it holds.
 pub fn characters(bytes: &[u8]) -> Reading {
     /// A colon and hex digits only.
     const CHARACTERS: i32 = 10;
-    let verdict = verdict(&modbus_ascii::PROTOCOL, bytes);
-    Reading { protocol: &modbus_ascii::PROTOCOL, verdict, from: 0, bits: CHARACTERS, cut: false }
+    whole(&modbus_ascii::PROTOCOL, verdict(&modbus_ascii::PROTOCOL, bytes), CHARACTERS)
+}
+
+/// All bytes are one telegram.
+fn whole(protocol: &'static Protocol, verdict: Verdict, bits: i32) -> Reading {
+    Reading { protocol, verdict, from: 0, bits, cut: false, awaited: false }
 }
 
 fn damaged(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
     let pdu = modbus_rtu::RTU.pdu_bytes(bytes);
-    let bits = unit(*bytes.first()?) + structure(pdu, splitter)? + WRONG;
-    Some(Reading {
-        protocol: &modbus_rtu::PROTOCOL,
-        verdict: verdict(&modbus_rtu::PROTOCOL, bytes),
-        from: 0,
-        bits,
-        cut: false,
-    })
+    // What damaged it may be in its numbers.
+    let bits = unit(*bytes.first()?) + function(*pdu.first()?) + numbers(pdu, splitter)?.max(0) + WRONG;
+    Some(whole(&modbus_rtu::PROTOCOL, verdict(&modbus_rtu::PROTOCOL, bytes), bits))
 }
 
 /// A response that is awaited, whatever is wrong with it: unit and function are those of the request.
@@ -150,16 +151,11 @@ fn awaited(bytes: &[u8], splitter: &Splitter, waiting: Option<Waiting>) -> Optio
     let bits = CONVERSATION + function(waiting.function) + WRONG;
     let fits = begins && (modbus_rtu::RTU.shortest()..=longest).contains(&bytes.len());
     // All of it is there but a check.
-    if fits && splitter.sides(&bytes[1..]) != [false; 2] {
-        return Some(without_check(0, bits, false));
-    }
-    fits.then(|| Reading {
-        protocol: &modbus_rtu::PROTOCOL,
-        verdict: verdict(&modbus_rtu::PROTOCOL, bytes),
-        from: 0,
-        bits,
-        cut: false,
-    })
+    let reading = match splitter.sides(bytes.get(1..)?) {
+        [false, false] => whole(&modbus_rtu::PROTOCOL, verdict(&modbus_rtu::PROTOCOL, bytes), bits),
+        _ => without_check(0, bits, false),
+    };
+    fits.then_some(Reading { awaited: true, ..reading })
 }
 
 /// What its check says of bytes that are read as of `protocol`.
@@ -178,7 +174,7 @@ fn unchecked(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
 }
 
 fn without_check(from: usize, bits: i32, cut: bool) -> Reading {
-    Reading { protocol: &modbus_unchecked::PROTOCOL, verdict: Verdict::NoCheck, from, bits, cut }
+    Reading { from, cut, ..whole(&modbus_unchecked::PROTOCOL, Verdict::NoCheck, bits) }
 }
 
 /// The bytes that a frame of Modbus ASCII stands for, with a right LRC.
@@ -188,7 +184,7 @@ fn of_ascii(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
     let checked = modbus_ascii::ASCII.verdict(bytes) == Verdict::Right;
     let inside = structure(modbus_ascii::ASCII.pdu_bytes(bytes), splitter).filter(|_| checked)?;
     let bits = unit(*bytes.first()?) + inside + LRC;
-    Some(Reading { protocol: &modbus_ascii::PROTOCOL, verdict: Verdict::Right, from: 0, bits, cut: false })
+    Some(whole(&modbus_ascii::PROTOCOL, Verdict::Right, bits))
 }
 
 fn pdu(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
@@ -196,13 +192,7 @@ fn pdu(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
     const SHORTEST: usize = 5;
     let bits = structure(bytes, splitter).filter(|_| bytes.len() >= SHORTEST)?;
     // Whatever could be a PDU is more likely one with its unit.
-    Some(Reading {
-        protocol: &modbus_pdu::PROTOCOL,
-        verdict: Verdict::NoCheck,
-        from: 0,
-        bits: bits - 1,
-        cut: false,
-    })
+    Some(whole(&modbus_pdu::PROTOCOL, Verdict::NoCheck, bits - 1))
 }
 
 /// A telegram whose end is missing: the request that waits tells it, or its byte count.
@@ -219,7 +209,7 @@ fn cut(bytes: &[u8], splitter: &Splitter, waiting: Option<Waiting>) -> Option<Re
         };
         if let Some(from) = (0..=STRAY.min(bytes.len().saturating_sub(2))).find(awaited) {
             let bits = CONVERSATION + function(waiting.function);
-            return Some(without_check(from, bits, true));
+            return Some(Reading { awaited: true, ..without_check(from, bits, true) });
         }
     }
     let [first, code, count, ..] = *bytes else { return None };
@@ -262,19 +252,14 @@ fn over_tcp(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
     let cut = length > bytes.len() - 6;
     let inside = structure(pdu, splitter).or((cut && splitter.knows(*pdu.first()?)).then_some(0))?;
     let bits = 12 + if near { 8 } else { 0 } + inside + CUT;
-    (length > 2 && (near || cut)).then_some(Reading {
-        protocol: &modbus_tcp::PROTOCOL,
-        verdict: Verdict::NoCheck,
-        from: 0,
-        bits,
-        cut,
-    })
+    let reading = whole(&modbus_tcp::PROTOCOL, Verdict::NoCheck, bits);
+    (length > 2 && (near || cut)).then_some(Reading { cut, ..reading })
 }
 
 /// A frame of PROFIBUS whose sum is wrong or whose end is missing.
 fn over_profibus(bytes: &[u8]) -> Option<Reading> {
     use profibus_fdl::{Fdl, PROTOCOL, SD2};
-    let reading = |bits, verdict, cut| Some(Reading { protocol: &PROTOCOL, verdict, from: 0, bits, cut });
+    let reading = |bits, verdict, cut| Some(Reading { cut, ..whole(&PROTOCOL, verdict, bits) });
     let ends = bytes.last() == Some(&profibus_fdl::END);
     match (bytes, Fdl::length(bytes)) {
         ([SD2, a, b, SD2, ..], Some(length)) if a == b && length == bytes.len() => {
@@ -313,6 +298,11 @@ fn function(function: u8) -> i32 {
 
 /// How much a PDU looks like one: its function is known, its length fits, its numbers can be.
 pub(super) fn structure(pdu: &[u8], splitter: &Splitter) -> Option<i32> {
+    Some(function(*pdu.first()?) + numbers(pdu, splitter)?)
+}
+
+/// How much the numbers of a PDU look so; `None` where its length does not fit.
+fn numbers(pdu: &[u8], splitter: &Splitter) -> Option<i32> {
     const UNLIKELY: i32 = -6;
     /// The highest sub-function of function 8.
     ///
@@ -364,10 +354,6 @@ pub(super) fn structure(pdu: &[u8], splitter: &Splitter) -> Option<i32> {
         }
         _ => of_request,
     };
-    let best = [(asks, of_request), (answers, of_response)]
-        .into_iter()
-        .filter(|(fits, _)| *fits)
-        .map(|(_, bits)| bits)
-        .max();
-    Some(function(code) + best.unwrap_or_default())
+    let fitting = [(asks, of_request), (answers, of_response)].into_iter().filter(|(fits, _)| *fits);
+    fitting.map(|(_, bits)| bits).max()
 }

@@ -50,7 +50,7 @@ impl Dump {
     pub fn row(&self, line: &[u8]) -> Option<Row> {
         /// Offsets stand near the beginning.
         const FAR: usize = 80;
-        let mark = |c: &u8| matches!(c, b' ' | b'\t' | b'|' | b'>' | b'/' | b'#' | b'*' | b';');
+        let mark = |c: &u8| matches!(c, b' ' | b'\t' | b'|' | b'>' | b'/' | b'#' | b'*' | b';' | b'-');
         let first = line.iter().take_while(|c| mark(c)).count();
         if let Some(row) = self.row_at(line, first, true) {
             return Some(row);
@@ -72,6 +72,8 @@ impl Dump {
 
     /// The same with the offset at `start`; where other things are before it, it must be marked and fit.
     fn row_at(&self, line: &[u8], start: usize, alone: bool) -> Option<Row> {
+        /// So many digits have the offsets of most dumps.
+        const USUAL: usize = 8;
         // tcpdump marks its offsets.
         let start = start + if line[start..].starts_with(b"0x") { 2 } else { 0 };
         let count = line[start..].iter().take_while(|c| c.is_ascii_hexdigit()).count();
@@ -86,7 +88,9 @@ impl Dump {
         let from = end + if bar { blanks(end) } else { 0 } + usize::from(colon);
         // od parts its offset, seven digits, with one blank only.
         let od = count == 7 && !colon && blanks(from) == 1;
-        let parted = (colon && blanks(from) > 0) || (alone && (blanks(from) > 1 || od));
+        let parted = (colon && blanks(from) > 0)
+            || (alone && od)
+            || ((alone || count == USUAL) && blanks(from) > 1);
         if !parted || !line.get(from + blanks(from)).is_some_and(u8::is_ascii_hexdigit) {
             return None;
         }

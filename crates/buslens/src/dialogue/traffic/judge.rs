@@ -24,6 +24,8 @@ pub(super) struct Weak {
     /// It looks like a telegram of some kind.
     pub read: bool,
     pub cut: bool,
+    /// Its bits count on the request before it.
+    pub awaited: bool,
     pub facts: Facts,
 }
 
@@ -98,6 +100,9 @@ impl Shapes {
     }
 }
 
+/// So few lines say nothing of each other.
+const FEW: usize = 4;
+
 /// Fewer bytes are only told by a person.
 const SHORTEST: usize = 4;
 
@@ -137,6 +142,9 @@ impl Traffic {
         let mut weak = std::mem::take(&mut self.weak);
         let mut gone: HashSet<u32> = self.gone.drain(..).collect();
         weak.retain(|weak| !gone.contains(&weak.entry));
+        // Who types telegrams types few lines that are none.
+        let read = self.entries.len() - weak.iter().filter(|weak| !weak.read || weak.facts.slips).count();
+        let typed = typed && (self.entries.len() <= FEW || read * 2 >= self.entries.len());
         if typed {
             self.choose_typed(&mut weak);
         }
@@ -399,6 +407,8 @@ impl Traffic {
         }
         if in_conversation {
             bits += CONVERSATION;
+        } else if one.awaited && !self.is_awaited(one, gone) {
+            bits -= CONVERSATION;
         }
         bits >= threshold
     }
@@ -421,6 +431,19 @@ impl Traffic {
                 let others = before.iter().chain(&behind).filter(near);
                 others.into_iter().any(|(_, other)| channel(bytes(other, &self.data)) == Some(own))
             })
+    }
+
+    /// Whether the request whose answer an entry may be is still taken for one.
+    fn is_awaited(&self, one: &Weak, gone: &HashSet<u32>) -> bool {
+        /// So far away it may be.
+        const NEAR: usize = 16;
+        let index = one.entry as usize;
+        let entry = &self.entries[index];
+        self.numbered(index.saturating_sub(NEAR), index).into_iter().any(|(number, other)| {
+            !gone.contains(&number)
+                && (other.port, other.unit) == (entry.port, entry.unit)
+                && other.function == entry.function & !EXCEPTION
+        })
     }
 
     /// The entries `from` to `to`, as far as there are so many, with their numbers.

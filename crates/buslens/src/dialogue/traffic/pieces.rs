@@ -389,6 +389,9 @@ impl Traffic {
         let rest = &joined[held.from..];
         let mut found = Vec::new();
         let whole = self.whole(index, rest, true, &mut found);
+        if !whole && same && self.goes_on_behind(index, rest, length - held.from, &mut found) {
+            return self.take_with_tail(index, held, bytes, row, &found);
+        }
         if whole || self.is_beginning(index, rest) && same {
             let rows =
                 self.lanes[index].rows.iter().map(|row| Row { from: row.from + length as isize, ..*row });
@@ -412,6 +415,39 @@ impl Traffic {
             self.lanes[index].held = Some(held);
         }
         false
+    }
+
+    /// Whether a telegram whose first bytes were `held` ends within `bytes`, and another one begins there: what
+    /// was received came in parts that are no telegrams.
+    fn goes_on_behind(&self, index: usize, bytes: &[u8], held: usize, found: &mut Vec<Found>) -> bool {
+        [&modbus_tcp::PROTOCOL, &modbus_rtu::PROTOCOL].into_iter().any(|protocol| {
+            let end = self.leading(index, protocol, bytes, true, found);
+            end > held && self.is_beginning(index, &bytes[end..])
+        })
+    }
+
+    /// Takes the telegrams that were found in what is held and a piece behind it, and holds the rest.
+    fn take_with_tail(&mut self, index: usize, held: Held, bytes: &[u8], row: Row, found: &[Found]) -> bool {
+        let length = held.bytes.len();
+        let joined = [held.bytes.as_slice(), bytes].concat();
+        let rows = self.lanes[index].rows.iter().map(|row| Row { from: row.from + length as isize, ..*row });
+        let rows = held.rows.into_iter().chain(rows).collect();
+        let own = std::mem::replace(&mut self.lanes[index].rows, rows);
+        self.gone.extend(&held.entries);
+        self.shapes.count(row.facts.shape, true);
+        self.take_found(index, &joined[held.from..], held.from, found);
+        self.lanes[index].rows = own;
+        let end = held.from + found.last().map_or(0, |(_, to, ..)| *to);
+        self.lanes[index].held = Some(Held {
+            bytes: joined[end..].to_vec(),
+            rows: vec![Row { from: length as isize - end as isize, ..row }],
+            from: 0,
+            latest: 0,
+            entries: Vec::new(),
+            complete: false,
+            age: 0,
+        });
+        true
     }
 
     /// Whether a telegram that begins so is longer.
@@ -494,7 +530,7 @@ impl Traffic {
         let (bits, protocol) = fits
             .filter(|(bits, _)| *bits > 0)
             .reduce(|best, other| if other.0 > best.0 { other } else { best })?;
-        Some(Reading { protocol, verdict: Verdict::NoCheck, from: 0, bits, cut: false })
+        Some(Reading { protocol, verdict: Verdict::NoCheck, from: 0, bits, cut: false, awaited: false })
     }
 
     /// Adds an entry that is to be judged.
@@ -538,6 +574,7 @@ impl Traffic {
             bits: bits(&reading) + evidence::place(facts),
             read: reading.is_some(),
             cut: reading.is_some_and(|reading| reading.cut),
+            awaited: reading.is_some_and(|reading| reading.awaited),
             facts: *facts,
         });
         debug_assert!(self.entries[before].role == Role::Plain);
