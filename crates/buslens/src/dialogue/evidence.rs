@@ -102,6 +102,7 @@ pub fn company(pieces: usize, proven: usize, alike: usize) -> i32 {
 pub fn reading(bytes: &[u8], splitter: &Splitter, waiting: Option<Waiting>) -> Option<Reading> {
     let readings = [
         damaged(bytes, splitter),
+        of_another_length(bytes, splitter),
         awaited(bytes, splitter, waiting),
         unchecked(bytes, splitter),
         of_ascii(bytes, splitter),
@@ -140,6 +141,13 @@ fn damaged(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
     // What damaged it may be in its numbers.
     let bits = unit(*bytes.first()?) + function(*pdu.first()?) + numbers(pdu, splitter)?.max(0) + WRONG;
     Some(whole(&modbus_rtu::PROTOCOL, verdict(&modbus_rtu::PROTOCOL, bytes), bits))
+}
+
+/// Bytes with a right check whose length is not that of their function.
+fn of_another_length(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
+    let [first, code, _, _, ..] = *bytes else { return None };
+    let checked = verdict(&modbus_rtu::PROTOCOL, bytes) == Verdict::Right && splitter.knows(code);
+    checked.then(|| whole(&modbus_rtu::PROTOCOL, Verdict::Right, unit(first) + function(code)))
 }
 
 /// A response that is awaited, whatever is wrong with it: unit and function are those of the request.
@@ -244,14 +252,18 @@ fn is_cut(bytes: &[u8], missing: usize, stray: bool) -> bool {
 
 /// A frame of Modbus TCP whose length is wrong.
 fn over_tcp(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
+    /// Nothing but its function says that it is one.
+    const UNTOLD: i32 = -4;
     let pdu = bytes.get(modbus_tcp::HEADER..)?;
-    let [_, _, 0, 0, 0 | 1, _, ..] = *bytes else { return None };
+    let [high, low, 0, 0, 0 | 1, _, ..] = *bytes else { return None };
+    // Zeros are not rare, but those behind a number are.
+    let header = if (high, low) == (0, 0) { 4 } else { 12 };
     let length = usize::from(u16::from_be_bytes([bytes[4], bytes[5]]));
     // Nearly right: a slip, or bytes that are missing.
-    let near = length.abs_diff(bytes.len() - 6) <= 4;
+    let near = length.abs_diff(bytes.len() - 6) <= 4 && pdu.len() > 1;
     let cut = length > bytes.len() - 6;
-    let inside = structure(pdu, splitter).or((cut && splitter.knows(*pdu.first()?)).then_some(0))?;
-    let bits = 12 + if near { 8 } else { 0 } + inside + CUT;
+    let inside = structure(pdu, splitter).or((cut && splitter.knows(*pdu.first()?)).then_some(UNTOLD))?;
+    let bits = header + if near { 8 } else { 0 } + inside + CUT;
     let reading = whole(&modbus_tcp::PROTOCOL, Verdict::NoCheck, bits);
     (length > 2 && (near || cut)).then_some(Reading { cut, ..reading })
 }

@@ -131,6 +131,8 @@ pub struct Scan {
     pub slips: usize,
     /// Who speaks, by words anywhere in the line.
     pub sender: Option<(Sender, Weight)>,
+    /// The line calls for both: `Request | Response`.
+    pub both: bool,
     /// What tells several lines or connections apart: `COM8`, `ttyUSB0`, or the addresses of both ends,
     /// the client's first, whoever speaks. Empty where none is said.
     pub port: Vec<u8>,
@@ -260,6 +262,7 @@ impl Scan {
             self.join(line, at, to, first, PLAIN);
             return to;
         }
+        self.drop_counted(line, at);
         self.close();
         match words::sign(line, at) {
             Some((About::Sender(sender, weight), to)) => {
@@ -275,13 +278,26 @@ impl Scan {
         }
     }
 
+    /// A number with an ideograph right behind it counts something: `16进制`, `2字节`.
+    fn drop_counted(&mut self, line: &[u8], at: usize) {
+        let ideograph = (0xE4..=0xE9).contains(&line[at]);
+        let counts = |run: &Run| run.tokens == 1 && run.decimal && !run.padded && run.span.to == at;
+        if let Some(run) = self.open.take_if(|run| ideograph && counts(run)) {
+            for numbers in [&mut self.hex, &mut self.decimal] {
+                numbers.truncate(run.first);
+            }
+            self.places.truncate(run.first);
+            self.stranger();
+        }
+    }
+
     fn clear(&mut self) {
         self.hex.clear();
         self.decimal.clear();
         self.places.clear();
         self.runs.clear();
         self.port.clear();
-        (self.time, self.sender, self.open) = (None, None, None);
+        (self.time, self.sender, self.both, self.open) = (None, None, false, None);
         (self.ends, self.arrow) = ([None; 2], None);
         (self.strong, self.weak, self.words, self.words_since) = (None, None, 0, 0);
         (self.of_telegrams, self.of_leftovers, self.slips, self.column) = (false, false, 0, false);
@@ -403,6 +419,12 @@ impl Scan {
         const NEAR: usize = 32;
         let at = self.runs.partition_point(|other| other.first < run.first);
         &self.runs[at.saturating_sub(NEAR)..self.runs.len().min(at + NEAR)]
+    }
+
+    /// Whether `run` is the one byte of a short acknowledgement of PROFIBUS behind its name: `SC E5`.
+    pub fn is_acknowledgement(&self, run: &Run) -> bool {
+        const SC: u8 = 0xE5;
+        run.len() == 1 && self.hex[run.first] == SC && run.word == word_of(b"SC")
     }
 
     /// The last number of the line, in decimal; 0 if there is none.
@@ -837,6 +859,8 @@ impl Scan {
             Weight::Strong => self.strong = Some(sender),
             Weight::Weak => self.weak = Some(sender),
         }
+        let said = |sender| matches!(sender, Sender::Says(_));
+        self.both |= self.sender.is_some_and(|(other, _)| other != sender && said(other) && said(sender));
         if self.sender.is_none_or(|(_, known)| known < weight) {
             self.sender = Some((sender, weight));
         }

@@ -297,13 +297,11 @@ impl Reader {
         let runs = self.scan.runs.iter().filter(|run| run.span.len() > 1).count().max(1);
         let bare = self.scan.words == 0 && self.scan.time.is_none() && runs == 1;
         let joined = self.header.as_ref().is_some_and(|header| header.row > 0) && bare;
-        let several = self.scan.runs.iter().filter(|run| run.len() >= SHORTEST).count();
-        if several == 0 && !marked && !joined {
-            let taken = !self.long && self.columns.take(line, &self.scan, self.line, self.offset);
-            if !taken {
-                self.end_columns(sink);
-            }
-        } else {
+        let several = self.scan.runs.iter().any(|run| run.len() >= SHORTEST);
+        // The cells of a row of a table may be a run, too.
+        let table = || memchr::memchr_iter(b'|', line).nth(1).is_some();
+        let row = !self.long && !marked && !joined && (!several || table());
+        if !row || !self.columns.take(line, &self.scan, self.line, self.offset) {
             self.end_columns(sink);
         }
         let last = self.scan.runs.last().map(|run| run.span);
@@ -321,7 +319,8 @@ impl Reader {
             let short = run.len() < SHORTEST || (number && run.len() == SHORTEST);
             let two = run.span.len() > 1;
             let said = run.said && run.sender.is_some_and(|(_, weight)| weight == Weight::Strong);
-            let rest = short && !marked && (bare && two || said || ends && is_labelled(line, &run));
+            let named = self.scan.is_acknowledgement(&run);
+            let rest = short && !marked && (bare && two || said || named || ends && is_labelled(line, &run));
             if short && !rest && !marked {
                 continue;
             }
@@ -370,7 +369,7 @@ impl Reader {
             sender: self.scan.sender.map(|(sender, _)| sender),
             port: None,
             joins: false,
-            facts: Facts { column: true, ..Facts::default() },
+            facts: Facts { column: true, marked: true, ..Facts::default() },
         }));
     }
 
@@ -429,7 +428,7 @@ impl Reader {
         if self.long {
             return;
         }
-        let sender = self.scan.sender.map(|(sender, _)| sender);
+        let sender = self.scan.sender.filter(|_| !self.scan.both).map(|(sender, _)| sender);
         let heading = line.trim_ascii_end().ends_with(b":");
         let number = self.scan.last_number(line);
         let heads = (sender.is_some() && self.scan.words <= WORDS) || heading;

@@ -590,22 +590,28 @@ impl Traffic {
     /// Bytes of a stream without a right telegram: a damaged one, if they begin or end like one.
     pub(super) fn unframed(&mut self, index: usize, bytes: &[u8], from: usize, kept: usize) {
         let rtu = self.main(index).is(&modbus_rtu::PROTOCOL);
-        let port = usize::from(self.lanes[index].row(from).port);
-        let like = rtu && has_length(bytes) && {
-            let (unit, function) = (bytes[0], bytes[1] & !EXCEPTION);
-            let awaited = self.waiting[port].is_some_and(|it| (it.unit, it.function) == (unit, function));
-            let seen =
-                self.seen[usize::from(unit) * 2 + usize::from(function >> 6)] >> (function & 63) & 1 == 1;
-            awaited || seen || self.splitter.rtu_lengths(bytes).contains(&Some(bytes.len()))
-        };
+        let like = rtu
+            && has_length(bytes)
+            && (self.is_of_known(index, bytes, from)
+                || self.splitter.rtu_lengths(bytes).contains(&Some(bytes.len())));
         match like {
-            true => {
-                // Of a check that is right, only the length is wrong.
-                let main = self.main(index);
-                self.push(index, bytes, from, kept, main, (main.verdict)(bytes), Role::Plain);
-            }
+            true => self.damaged(index, bytes, from, kept),
             false => self.discard(index, bytes, from, kept),
         }
+    }
+
+    /// Whether bytes begin with a unit and a function that were seen or are awaited.
+    pub(super) fn is_of_known(&self, index: usize, bytes: &[u8], from: usize) -> bool {
+        let [unit, code, ..] = *bytes else { return false };
+        let (port, function) = (usize::from(self.lanes[index].row(from).port), code & !EXCEPTION);
+        let awaited = self.waiting[port].is_some_and(|it| (it.unit, it.function) == (unit, function));
+        awaited || self.seen[usize::from(unit) * 2 + usize::from(function >> 6)] >> (function & 63) & 1 == 1
+    }
+
+    /// Adds a telegram of which something is wrong: its check, or with that right, only its length.
+    pub(super) fn damaged(&mut self, index: usize, bytes: &[u8], from: usize, kept: usize) {
+        let main = self.main(index);
+        self.push(index, bytes, from, kept, main, (main.verdict)(bytes), Role::Plain);
     }
 
     pub(super) fn discard(&mut self, index: usize, bytes: &[u8], from: usize, kept: usize) {

@@ -100,6 +100,9 @@ impl Shapes {
     }
 }
 
+/// So far apart request and response may be.
+const NEAR: usize = 3;
+
 /// So few lines say nothing of each other.
 const FEW: usize = 4;
 
@@ -148,6 +151,7 @@ impl Traffic {
         if typed {
             self.choose_typed(&mut weak);
         }
+        self.settle_pdus(&weak, &gone);
         let known = Known::of(self, &weak, &gone);
         let threshold = evidence::threshold(weak.iter().filter(|weak| weak.read).count());
         // Telegrams inside of what is none.
@@ -179,6 +183,32 @@ impl Traffic {
         }
         self.take_turns();
         self.settle_passed();
+    }
+
+    /// `03 04 00 01 00 02` is a request of unit 3, or the answer to `03 00 01 00 02`: what was asked before tells.
+    fn settle_pdus(&mut self, weak: &[Weak], gone: &HashSet<u32>) {
+        for one in weak {
+            let index = one.entry as usize;
+            let entry = &self.entries[index];
+            if !entry.protocol().is(&modbus_unchecked::PROTOCOL) {
+                continue;
+            }
+            let before = self.numbered(index.saturating_sub(NEAR), index);
+            let asked = before.into_iter().rfind(|(number, other)| {
+                !gone.contains(number) && other.port == entry.port && other.role != Role::Discarded
+            });
+            let own = bytes(entry, &self.data);
+            let answers = asked.is_some_and(|(_, asked)| {
+                let request = bytes(asked, &self.data);
+                asked.protocol().is(&modbus_pdu::PROTOCOL)
+                    && own.first() == request.first()
+                    && self.splitter.answer_length(request) == Some(own.len())
+            });
+            if answers {
+                let telegram = own.to_vec();
+                self.retype(index, &telegram, &modbus_pdu::PROTOCOL, Verdict::NoCheck);
+            }
+        }
     }
 
     /// An entry without a proof is a telegram.
@@ -382,7 +412,8 @@ impl Traffic {
         if own.len() < SHORTEST && *own != [profibus_fdl::SC] && !exception {
             return false;
         }
-        if (facts.abridged && one.cut) || facts.slips || self.repeats(one, gone) {
+        let amiss = (facts.abridged && one.cut) || facts.slips || (facts.column && !in_conversation);
+        if amiss || self.repeats(one, gone) {
             return false;
         }
         let placed = (facts.said || facts.bare || facts.dumped) && !facts.of_leftovers;
@@ -415,8 +446,6 @@ impl Traffic {
 
     /// Whether an entry answers one of those just before it, or is answered by one just behind.
     fn is_in_conversation(&self, one: &Weak, own: &[u8], gone: &HashSet<u32>) -> bool {
-        /// So far away they may be.
-        const NEAR: usize = 3;
         let index = one.entry as usize;
         let entry = &self.entries[index];
         let near = |other: &&(u32, &Entry)| {

@@ -1,7 +1,7 @@
 //! Pieces of a text: what in them is proven to be a telegram, what is the beginning of one that goes on in the
 //! next piece, and what may be one.
 
-use super::collect::{PAUSE, Row, Traffic, is_right, keep};
+use super::collect::{PAUSE, Row, Traffic, has_length, is_right, keep};
 use super::entry::{Hint, NO_TIME, Role};
 use super::judge::Weak;
 use crate::dialogue::evidence::{self, Reading};
@@ -131,7 +131,17 @@ impl Traffic {
                 return;
             }
         }
-        self.passed.push((row.line, row.offset));
+        // As the standard prints its examples, request and response stand side by side without a check.
+        let fresh = !known.iter().any(|(at, length)| {
+            self.data.get(*at as usize..*at as usize + usize::from(*length)) == Some(bytes)
+        });
+        let reading = evidence::reading(bytes, &self.splitter, None)
+            .filter(|reading| fresh && !reading.cut && reading.verdict == Verdict::NoCheck)
+            .filter(|_| !row.facts.marked);
+        match reading {
+            Some(_) => self.add_weak(index, bytes, 0, &row.facts, reading),
+            None => self.passed.push((row.line, row.offset)),
+        }
     }
 
     /// A person says that all pieces are telegrams of the protocol.
@@ -338,7 +348,10 @@ impl Traffic {
                     }
                     None => {
                         let kept = keep(&mut self.data, rest);
-                        self.unframed(index, rest, at, kept);
+                        match has_length(rest) && self.is_of_known(index, rest, at) {
+                            true => self.damaged(index, rest, at, kept),
+                            false => self.discard(index, rest, at, kept),
+                        }
                     }
                 }
             }
@@ -380,8 +393,13 @@ impl Traffic {
         let same = row.facts.shape == held.rows[0].facts.shape;
         // A number that ends a sentence is no rest of a telegram.
         let Facts { rest, bare, of_leftovers, .. } = row.facts;
-        let placed = !rest || bare || of_leftovers || same || row.hint != Hint::None;
-        if is_apart(&held, row) || !placed {
+        let sent = row.hint != Hint::None && row.hint == held.rows[0].hint;
+        let placed = !rest || bare || of_leftovers || same || sent;
+        if is_apart(&held, row) {
+            return false;
+        }
+        if !placed {
+            self.lanes[index].held = Some(held);
             return false;
         }
         let length = held.bytes.len();
@@ -478,8 +496,15 @@ impl Traffic {
         let parts = parts(breaks, bytes.len()).map(|(from, to)| (from, &bytes[from..to]));
         let readings = whole.chain(parts).filter(|(_, part)| !part.is_empty());
         let waiting = self.waiting_at(index);
+        // Among many parts, more is found by chance.
+        let chance = 2 * (1 + breaks.len()).ilog2() as i32;
+        let read = |part: &[u8]| {
+            let reading = evidence::reading(part, &self.splitter, waiting)?;
+            let apart = part.len() < bytes.len();
+            Some(Reading { bits: reading.bits - if apart { chance } else { 0 }, ..reading })
+        };
         let best = readings
-            .map(|(from, part)| (from, part, evidence::reading(part, &self.splitter, waiting)))
+            .map(|(from, part)| (from, part, read(part)))
             .reduce(|best, other| {
                 // Numbers of a list that could be hex and decimal are decimal.
                 let listed = facts.listed && other.1 == decimal && bits(&other.2) == bits(&best.2);
