@@ -3,6 +3,5 @@
 pub mod build;
 pub mod check;
 pub mod devices;
-pub mod later;
 pub mod read;
 pub mod sheet;

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::messages::{Answer, Choice, Export, Found, Request, Shown, Value, Which};
+use super::messages::{Answer, Choice, Export, Found, Proposed, Request, Shown, Value, Which};
 use buslens::field::{Direction, Span, hex};
 use buslens::tool::log::{Entry, Finding, Log, Role, Source, time_text};
 use buslens::tool::{annotated, csv, json};
@@ -39,6 +39,10 @@ impl<S: Source> Reader<S> {
         vec![
             Answer::Ready(self.log.overview()),
             Answer::Findings(self.findings.iter().map(found).collect()),
+            Answer::Beside {
+                proposals: self.log.proposals(&self.source).iter().map(Proposed::of).collect(),
+                seen: self.log.seen(&self.source),
+            },
             Answer::Lanes(self.log.lanes(None, STRETCHES)),
             Answer::List(self.chosen.len()),
         ]
@@ -64,6 +68,7 @@ impl<S: Source> Reader<S> {
             }
             Request::Show(which) => vec![self.show(*which)],
             Request::Series { unit, address } => vec![self.series(*unit, *address)],
+            Request::Held => vec![Answer::Held(self.log.held(&self.source))],
             Request::Unread => vec![self.unread()],
             Request::Sample => vec![self.sample()],
             Request::Open(_) | Request::Stop | Request::Export { .. } => Vec::new(),
@@ -165,7 +170,7 @@ impl<S: Source> Reader<S> {
             text += &format!("- {sentence}\n");
         }
         if !self.findings.is_empty() {
-            text += "\nWhat is wrong, as far as the log tells:\n";
+            text += "\nWhat the log shows to be wrong:\n";
             for (number, finding) in (1..).zip(&self.findings) {
                 let count = finding.evidence.len();
                 let noun = if count == 1 { "telegram" } else { "telegrams" };
@@ -247,9 +252,9 @@ fn about(entry: &Entry) -> &'static str {
         Role::Copy => "The log has it twice; this copy is not counted.",
         Role::Broadcast => "Nobody answers it: it is for all.",
         Role::Late => "It came after other requests were sent.",
-        Role::Unasked => "Nobody asked for it, as far as the log goes.",
+        Role::Unasked => "The log has no request for it.",
         Role::Discarded => {
-            "No telegram with a right check begins here: noise, a telegram whose beginning was lost, or another \
+            "No telegram with a valid checksum begins here: noise, a telegram whose beginning was lost, or another \
              protocol."
         }
         _ if entry.unanswered() => "Nobody answered it.",

@@ -59,7 +59,7 @@ pub struct Row {
     /// What a person noted on it.
     #[serde(skip_serializing_if = "str::is_empty")]
     pub comment: String,
-    /// What may have happened where the check failed, best first.
+    /// Possible causes where the check failed, best first.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub hypotheses: Vec<Hypothesis>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -294,7 +294,7 @@ fn raw(value: u32, coil: bool) -> RawValue {
 
 fn shown(text: String) -> Shown {
     let plain = text.replace('\u{2212}', "-");
-    let number = || plain.parse::<f64>().ok().filter(|number| number.is_finite());
+    let number = || lexical_core::parse::<f64>(plain.as_bytes()).ok().filter(|number| number.is_finite());
     match (plain.parse(), number()) {
         (Ok(whole), _) => Shown::Whole(whole),
         (_, Some(number)) => Shown::Number(number),

@@ -15,7 +15,7 @@ use crate::views::read::reading::{Choose, ReadingChoices};
 use crate::views::read::times::{clock, duration};
 use crate::worker::messages::{Part, Request, Value, Which};
 use buslens::field::{Span, count};
-use buslens::tool::log::Unit;
+use buslens::tool::log::{Held, Unit};
 
 #[component]
 pub fn Tools() -> impl IntoView {
@@ -35,7 +35,7 @@ pub fn Tools() -> impl IntoView {
             <MenuItem on_choose=open(units, None)>"Units and functions"</MenuItem>
             <MenuItem on_choose=open(series, None)>"A register over time"</MenuItem>
             <MenuItem on_choose=open(unread, Some(Request::Unread))>
-                {move || format!("Lines without bytes ({})", lines())}
+                {move || format!("Unread lines ({})", lines())}
             </MenuItem>
             <MenuItem on_choose=open(reading, Some(Request::Sample))>"How it is read"</MenuItem>
         </Menu>
@@ -45,7 +45,7 @@ pub fn Tools() -> impl IntoView {
         <Dialog open=series title="A register over time">
             <Series open=series />
         </Dialog>
-        <Dialog open=unread title="Lines without bytes">
+        <Dialog open=unread title="Unread lines">
             <UnreadLines />
         </Dialog>
         <Dialog open=reading title="How the log is read">
@@ -127,8 +127,33 @@ fn Series(open: RwSignal<bool>) -> impl IntoView {
     };
     let first = log.overview.with_untracked(|it| it.as_ref().and_then(|it| it.units.first()?.unit));
     unit.set(first.map_or(String::new(), |unit| unit.to_string()));
+    log.ask(Request::Held);
+    let option = |(index, held): (usize, Held)| {
+        let unit = held.unit.map_or(String::new(), |unit| format!("Unit {unit}, "));
+        let label = match held.name.is_empty() {
+            true => format!("{unit}register {}", held.address),
+            false => format!("{unit}{} ({})", held.name, held.address),
+        };
+        view! { <option value=index.to_string()>{label}</option> }
+    };
+    let choose = move |event| {
+        let index: Option<usize> = event_target_value(&event).parse().ok();
+        let Some(held) = log.held.with_untracked(|held| held.get(index?).cloned()) else { return };
+        unit.set(held.unit.map_or(String::new(), |unit| unit.to_string()));
+        register.set(held.address.to_string());
+        log.ask(Request::Series { unit: held.unit, address: held.address });
+    };
     view! {
         <form class="asked" on:submit=draw>
+            <Show when=move || log.held.with(|held| !held.is_empty())>
+                <label>
+                    <span>"In this log"</span>
+                    <select class="select" on:change=choose>
+                        <option value="">"choose …"</option>
+                        {move || log.held.get().into_iter().enumerate().map(option).collect_view()}
+                    </select>
+                </label>
+            </Show>
             <label>
                 <span>"Unit"</span>
                 <input
@@ -280,8 +305,8 @@ fn Reading() -> impl IntoView {
     let parts = [
         (Part::Bytes, "These are the bytes"),
         (Part::Time, "This is the time"),
-        (Part::Request, "This says request"),
-        (Part::Response, "This says response"),
+        (Part::Request, "This marks a request"),
+        (Part::Response, "This marks a response"),
     ];
     let buttons = parts.map(|(part, label)| {
         view! {
@@ -295,14 +320,14 @@ fn Reading() -> impl IntoView {
             <ReadingChoices />
             <Choose
                 label="File"
-                otherwise="As its beginning tells"
+                otherwise="Detect automatically"
                 options=inputs
                 value=Signal::derive(move || read.choices().input)
                 on_choose=Callback::new(move |key| read.read_as(|choices| choices.input = key))
             />
             <Choose
                 label="Numbers"
-                otherwise="As the lines tell"
+                otherwise="Detect automatically"
                 options=numbers
                 value=Signal::derive(move || decimal().to_owned())
                 on_choose=Callback::new(move |key: String| {
@@ -310,7 +335,7 @@ fn Reading() -> impl IntoView {
                 })
             />
         </div>
-        <h3>"Are lines read wrongly?"</h3>
+        <h3>"Lines read incorrectly?"</h3>
         <p class="note">"Select a part of this line, and say what it is. All lines are then read like that."</p>
         <input
             node_ref=field

@@ -3,7 +3,7 @@
 #[cfg(feature = "json")]
 use serde::{Deserialize, Serialize};
 
-use super::{Entry, Log, Role, Source};
+use super::{Entry, Format, Log, Role, Source};
 use crate::dialogue::Certainty;
 use crate::field::{Direction, Message, hex, many};
 use crate::frame::Verdict;
@@ -72,8 +72,8 @@ impl State {
             Self::Retry => "retry",
             Self::Slow => "slow",
             Self::Late => "late",
-            Self::Unasked => "unasked",
-            Self::Refused => "refused",
+            Self::Unasked => "unexpected",
+            Self::Refused => "rejected",
             Self::Unanswered => "unanswered",
             Self::Cut => "cut short",
             Self::Damaged => "damaged",
@@ -137,10 +137,12 @@ pub struct Overview {
     /// Rows that a person should look at.
     pub wrong: usize,
     pub lines: usize,
-    /// Lines without bytes.
+    /// Unread lines.
     pub unread: usize,
     /// The first and the last time.
     pub times: Option<(i64, i64)>,
+    /// They are UTC, as captures have them; others are whatever the program took for the time.
+    pub utc: bool,
     pub units: Vec<Unit>,
     pub functions: Vec<u8>,
     /// Lines and connections with their names, where there are several.
@@ -189,7 +191,7 @@ impl Log {
     }
 
     /// Whether a response took much longer than is usual for its unit and function.
-    fn is_slow(&self, entry: &Entry) -> bool {
+    pub(super) fn is_slow(&self, entry: &Entry) -> bool {
         /// Less than this nobody notices.
         const LEAST: u32 = 100_000;
         if entry.direction == Direction::Request {
@@ -263,6 +265,7 @@ impl Log {
             lines: self.lines() as usize,
             unread: self.unread().len(),
             times: all.times,
+            utc: matches!(self.format(), Format::Capture { .. }),
             units,
             functions,
             ports,
@@ -335,10 +338,10 @@ pub fn brief(said: &Message) -> String {
     let mut brief = match rest {
         Some(rest) => {
             let endings = [
-                ("confirms what it wrote: ", "written: "),
+                ("confirms the write: ", "written: "),
                 ("answers: ", ""),
                 ("answers with ", ""),
-                ("refuses: ", ""),
+                ("rejects the request: ", ""),
             ];
             let short = endings.iter().find_map(|(long, short)| Some((short, rest.strip_prefix(long)?)));
             short.map_or_else(|| rest.to_owned(), |(short, rest)| format!("{short}{rest}"))
@@ -386,7 +389,7 @@ fn headline(telegrams: usize, damaged: usize, units: &[Unit]) -> String {
         clauses.push(format!("{} damaged", many(damaged, "telegram")));
     }
     if refused > 0 {
-        clauses.push(format!("{} refused", many(refused, "request")));
+        clauses.push(format!("{} rejected", many(refused, "request")));
     }
     let mut text = clauses.join("; ") + ".";
     if let Some(first) = text.get_mut(..1) {
@@ -409,10 +412,10 @@ mod tests {
             (message!("ask {who} for {things}", who = who(), things = things()), "Read 200 = 5"),
             (message!("write to {who}: {things}", who = who(), things = things()), "Write 200 = 5"),
             (
-                message!("{who} confirms what it wrote: {things}", who = who(), things = things()),
+                message!("{who} confirms the write: {things}", who = who(), things = things()),
                 "Written: 200 = 5",
             ),
-            (message!("{who} refuses: {things}", who = who(), things = things()), "200 = 5"),
+            (message!("{who} rejects the request: {things}", who = who(), things = things()), "200 = 5"),
             (message!("nothing of that"), "Nothing of that"),
         ] {
             assert_eq!(brief(&said), expected);

@@ -14,6 +14,7 @@ mod packets;
 mod pictures;
 mod places;
 mod rows;
+mod seen;
 mod story;
 
 pub use crate::dialogue::traffic::{Dialog, Entry, Minutes, Role, Statistics};
@@ -24,7 +25,8 @@ pub use findings::Finding;
 pub use format::{Format, Refusal};
 pub use lanes::{Lane, Lanes, Mark};
 pub use list::{Overview, Row, State, Unit, brief};
-pub use pictures::{Bucket, Point, Timeline};
+pub use pictures::{Bucket, Held, Point, Timeline};
+pub use seen::Seen;
 pub use story::time_text;
 
 use std::collections::HashMap;
@@ -95,7 +97,7 @@ pub struct Log {
     choice: Choice,
     input: Way,
     traffic: Traffic,
-    /// Lines without bytes: number and place.
+    /// Unread lines: number and place.
     unread: Vec<(u32, u32)>,
     /// Its lines hold nothing but what should be telegrams.
     typed: bool,
@@ -380,7 +382,7 @@ impl Log {
         self.traffic.bytes(entry)
     }
 
-    /// Lines without bytes: number and place in the file.
+    /// Unread lines: number and place in the file.
     pub fn unread(&self) -> &[(u32, u32)] {
         &self.unread
     }

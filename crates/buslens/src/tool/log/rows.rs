@@ -113,6 +113,7 @@ impl Log {
             _ => None,
         };
         report.line_count = self.lines as usize;
+        report.seen = self.seen(&text.as_bytes());
         /// Nobody reads more of them.
         const MOST_LINES: usize = 10_000;
         const MOST_REMARKS: usize = 500;
@@ -212,9 +213,9 @@ impl Log {
         }
         others.retain(|(other, _)| !other.is(protocol));
         let reason = if protocol.is(&modbus_unchecked::PROTOCOL) {
-            message!("unit, function and length fit a telegram whose check was not printed")
+            message!("unit, function and length fit a telegram whose checksum was not printed")
         } else if protocol.is(self.choice.protocol) {
-            message!("the others are of this protocol, and nothing fits better")
+            message!("its neighbours are of this protocol, and nothing fits better")
         } else {
             message!("function code and length fit, and so does its place in the text")
         };
@@ -255,7 +256,7 @@ impl Log {
         {
             let reason = match direction {
                 Direction::Response => message!("its byte count says that it is the beginning of a response"),
-                Direction::Request => message!("a check is added to what is sent"),
+                Direction::Request => message!("a checksum is added to what is sent"),
             };
             return guess(Certainty::Likely, reason);
         }
