@@ -88,9 +88,8 @@ impl Dump {
         let from = end + if bar { blanks(end) } else { 0 } + usize::from(colon);
         // od parts its offset, seven digits, with one blank only.
         let od = count == 7 && !colon && blanks(from) == 1;
-        let parted = (colon && blanks(from) > 0)
-            || (alone && od)
-            || ((alone || count == USUAL) && blanks(from) > 1);
+        let parted =
+            (colon && blanks(from) > 0) || (alone && od) || ((alone || count == USUAL) && blanks(from) > 1);
         if !parted || !line.get(from + blanks(from)).is_some_and(u8::is_ascii_hexdigit) {
             return None;
         }
@@ -103,7 +102,8 @@ impl Dump {
         if !first.get(length).is_none_or(|c| c.is_ascii_whitespace() || matches!(c, b'-' | b'|')) {
             return None;
         }
-        let first = &first[..length];
+        // What is longer is no byte or word of a row, so that what stands before it is no offset.
+        let first = first.get(..length).filter(|first| first.len() <= 8)?;
         let octal = od && matches!(first.len(), 3 | 6) && first.iter().all(|c| (b'0'..=b'7').contains(c));
         let words = match od {
             _ if octal => Words::Octal,

@@ -157,6 +157,14 @@ pub struct Scan {
     time_unit: Option<i64>,
 }
 
+/// Where a line begins.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Start {
+    pub from: usize,
+    /// What comes before was read already: here are bytes.
+    pub in_row: bool,
+}
+
 /// What a token's digits are.
 enum Token {
     /// Bytes were added: all can be hex, all can be decimal, they are marked as bytes.
@@ -189,11 +197,11 @@ impl Scan {
         Self { time_unit, ..Self::default() }
     }
 
-    /// Reads `line` from `from` on. `numbers` says how bytes are written, if that is known.
-    pub fn read(&mut self, line: &[u8], from: usize, numbers: Option<Numbers>) {
+    /// Reads what of `line` was not read yet. `numbers` says how bytes are written, if that is known.
+    pub fn read(&mut self, line: &[u8], Start { from, in_row }: Start, numbers: Option<Numbers>) {
         self.clear();
         self.hex_only = numbers == Some(Numbers::Hex);
-        self.in_row = from > 0;
+        self.in_row = in_row;
         let mut at = from;
         let first =
             line[from.min(line.len())..].iter().take_while(|c| c.is_ascii_whitespace()).count() + from;
@@ -1230,7 +1238,7 @@ mod tests {
     /// The bytes of the longest run.
     fn read(text: &str) -> (String, Option<Sender>) {
         let mut scan = Scan::default();
-        scan.read(text.as_bytes(), 0, None);
+        scan.read(text.as_bytes(), Start::default(), None);
         let Some(run) = scan.runs.iter().max_by_key(|run| run.len()) else { return (String::new(), None) };
         // What stands before the last break is something else here.
         let from = run.breaks.of(&scan.breaks).last().map_or(0, |at| at - run.first);
@@ -1287,7 +1295,7 @@ mod tests {
     #[test]
     fn times_and_ports_are_told() {
         let mut scan = Scan::default();
-        scan.read(b"[02/03/2026 09:30:05] Written data (COM8)", 0, None);
+        scan.read(b"[02/03/2026 09:30:05] Written data (COM8)", Start::default(), None);
         assert_eq!((scan.runs.len(), scan.time.is_some(), scan.words), (0, true, 3));
         assert_eq!(scan.port, b"COM8");
     }
@@ -1296,7 +1304,7 @@ mod tests {
     fn both_directions_of_a_connection_are_one_port() {
         let mut scan = Scan::default();
         let mut read = |text: &str| {
-            scan.read(text.as_bytes(), 0, None);
+            scan.read(text.as_bytes(), Start::default(), None);
             let run = scan.runs.last().expect("bytes");
             (
                 String::from_utf8_lossy(&scan.port).into_owned(),

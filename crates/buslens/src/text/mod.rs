@@ -39,7 +39,7 @@ pub use words::Sender;
 use crate::field::{Facts, Span};
 use columns::Columns;
 use dump::{Dump, Words};
-use line::{Run, Scan};
+use line::{Run, Scan, Start};
 use words::Weight;
 
 /// How a text is to be read.
@@ -49,6 +49,8 @@ pub struct Form {
     pub numbers: Option<Numbers>,
     /// The first number counts the bytes behind it, see [`counted`].
     pub counted: bool,
+    /// Every line begins with a mark of a quotation, see [`quoted`].
+    pub quoted: bool,
     /// Each line has one byte.
     pub flow: Option<Flow>,
     /// What a person marked in one line.
@@ -238,7 +240,8 @@ impl Reader {
 
     fn read(&mut self, line: &[u8], sink: &mut dyn FnMut(Event<'_>)) {
         self.line += u32::from(!self.long);
-        if line.trim_ascii().is_empty() {
+        let quote = if self.form.quoted && !self.long { quote(line) } else { 0 };
+        if line[quote..].trim_ascii().is_empty() {
             self.end_list(sink);
             return self.end_columns(sink);
         }
@@ -247,11 +250,13 @@ impl Reader {
             return;
         }
         let marked = self.form.marks.as_ref().and_then(|marks| marks.bytes_from(line));
-        let from = row.map_or(0, |row| row.from).max(marked.unwrap_or(0));
+        let begins = row.map_or(0, |row| row.from).max(marked.unwrap_or(0));
         let words = row.map(|row| row.words);
         match words {
-            Some(Words::Octal) => self.scan.read_octal(line, from),
-            _ => self.scan.read(line, from, self.form.numbers),
+            Some(Words::Octal) => self.scan.read_octal(line, begins),
+            _ => {
+                self.scan.read(line, Start { from: begins.max(quote), in_row: begins > 0 }, self.form.numbers)
+            }
         }
         if self.form.counted {
             self.scan.drop_counts();
@@ -697,6 +702,21 @@ pub fn recognise(text: &[u8]) -> Recognised {
     Recognised { layout, numbers, style, with_bytes, telling, dumped }
 }
 
+/// Whether each line of a text is quoted: `> 01 03`.
+pub fn quoted(text: &[u8]) -> bool {
+    const ENOUGH: usize = 1 << 14;
+    const LEAST: usize = 3;
+    let text = &text[..text.len().min(ENOUGH)];
+    let mut lines = text.split(|c| matches!(c, b'\n' | b'\r')).filter(|line| !line.trim_ascii().is_empty());
+    lines.clone().nth(LEAST - 1).is_some() && lines.all(|line| line.starts_with(b">"))
+}
+
+/// How long the marks are that quote a line.
+fn quote(line: &[u8]) -> usize {
+    let marks = line.iter().take_while(|c| matches!(c, b'>' | b' ')).count();
+    line[..marks].iter().rposition(|c| *c == b'>').map_or(0, |last| last + 1)
+}
+
 /// Whether each line's first number counts the bytes behind it, with nothing else to tell it from
 /// them: `8 01 03 00 C8 00 03 84 35`.
 pub fn counted(text: &[u8], numbers: Option<Numbers>) -> bool {
@@ -707,7 +727,7 @@ pub fn counted(text: &[u8], numbers: Option<Numbers>) -> bool {
     let mut scan = Scan::default();
     let (mut least, mut most) = (usize::MAX, 0);
     for line in text[..end].split(|c| matches!(c, b'\n' | b'\r')) {
-        scan.read(line, 0, numbers);
+        scan.read(line, Start::default(), numbers);
         let Some(run) = scan.runs.iter().filter(|run| run.len() >= SHORTEST).max_by_key(|run| run.len())
         else {
             continue;
@@ -729,7 +749,7 @@ fn numbers(text: &[u8]) -> (Option<Numbers>, Option<Style>) {
     let (mut hex, mut decimal) = (0, 0);
     let mut styles = [0; Style::ALL.len()];
     for line in text.split(|c| matches!(c, b'\n' | b'\r')) {
-        scan.read(line, 0, None);
+        scan.read(line, Start::default(), None);
         if let Some(run) = scan.runs.iter().max_by_key(|run| run.len()) {
             styles[run.style as usize] += run.len();
             if run.len() >= SHORTEST {

@@ -503,13 +503,11 @@ impl Traffic {
             let apart = part.len() < bytes.len();
             Some(Reading { bits: reading.bits - if apart { chance } else { 0 }, ..reading })
         };
-        let best = readings
-            .map(|(from, part)| (from, part, read(part)))
-            .reduce(|best, other| {
-                // Numbers of a list that could be hex and decimal are decimal.
-                let listed = facts.listed && other.1 == decimal && bits(&other.2) == bits(&best.2);
-                if bits(&other.2) > bits(&best.2) || listed { other } else { best }
-            });
+        let best = readings.map(|(from, part)| (from, part, read(part))).reduce(|best, other| {
+            // Numbers of a list that could be hex and decimal are decimal.
+            let listed = facts.listed && other.1 == decimal && bits(&other.2) == bits(&best.2);
+            if bits(&other.2) > bits(&best.2) || listed { other } else { best }
+        });
         let Some((from, part, reading)) = best else { return };
         let before = self.entries.len();
         let begins = |from: &usize| bytes.get(*from..).is_some_and(|rest| self.is_beginning(index, rest));
