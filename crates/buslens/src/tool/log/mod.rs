@@ -181,7 +181,8 @@ impl Log {
         let is_text = matches!(format, Format::Text { .. });
         let counted = is_text && text::counted(&beginning, numbers);
         let flow = if is_text && reading.marks.is_none() { text::flow(&beginning, numbers) } else { None };
-        let form = Form { numbers, counted, flow, marks: reading.marks.clone() };
+        let quoted = is_text && text::quoted(&beginning);
+        let form = Form { numbers, counted, quoted, flow, marks: reading.marks.clone() };
         #[cfg(feature = "captures")]
         let packets = if is_text { packets::Packets::of(&beginning, &form) } else { None };
         #[cfg(not(feature = "captures"))]
