@@ -1,3 +1,4 @@
+use super::log::State;
 use crate::device::{self, Profile};
 use crate::dialogue::{Certainty, Choice, Guess};
 use crate::field::{self, Argument, Direction, Severity, Span};
@@ -80,6 +81,8 @@ pub struct Telegram {
     pub time: Option<String>,
     /// Microseconds from the request to the response.
     pub latency: Option<u32>,
+    /// How it went with it, where its log tells.
+    pub state: Option<State>,
     /// What a person noted on it.
     pub comment: String,
 }
@@ -140,6 +143,7 @@ impl Report {
             step: None,
             time: None,
             latency: None,
+            state: None,
             comment: String::new(),
         };
         let asked = Telegram { answered_by: Some(1), ..telegram(request, Direction::Request) };

@@ -9,6 +9,7 @@ pub mod copy;
 pub mod csv;
 mod decode;
 mod detail;
+pub mod digest;
 mod editor;
 mod entries;
 pub mod examples;
