@@ -219,9 +219,7 @@ impl Address {
             // Back to a view that still shows it.
             Ok(plain) if first == Some(false) && plain == written(&shows.link(view)) => {}
             Ok(plain) => shows.follow(view, read(&plain)),
-            Err(Refusal::Damaged) => {
-                shows.refuse("This link is damaged, or was cut on its way: what it held cannot be shown.")
-            }
+            Err(Refusal::Damaged) => shows.refuse("This link is damaged or incomplete and cannot be opened."),
             Err(Refusal::TooMuch) => {
                 shows.refuse("This link holds more than a link of Buslens ever does: it is not followed.");
             }

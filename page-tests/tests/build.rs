@@ -153,7 +153,7 @@ async fn a_check_is_broken_on_purpose() -> Result {
     page.fill_in("CRC", "12 34").await?;
     assert_eq!(page.holds("CRC").await?, "12 34");
     assert!(page.bytes_in(REQUEST).await?.ends_with("12 34"));
-    page.until(&format!("{REQUEST} .problems"), "CRC does not match").await?;
+    page.until(&format!("{REQUEST} .problems"), "CRC is wrong").await?;
     page.fill_in("CRC", "12").await?;
     assert!(page.about("CRC").await?.contains("not 2 bytes in hex"));
     page.fill_in("CRC", "").await?;

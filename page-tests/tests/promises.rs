@@ -268,10 +268,10 @@ async fn the_result_is_told_to_screen_readers() -> Result {
     let told = "return [...document.querySelectorAll('[role=status], [aria-live]')].map((it) => it.textContent).join(' ')";
     page.paste("01 03 06 00 08 42 A4 F1 DE B0 F8").await?;
     let at_once = page.value(told).await?;
-    assert!(!at_once.as_str().unwrap_or_default().contains("1 check failed"), "not at once: {at_once}");
+    assert!(!at_once.as_str().unwrap_or_default().contains("1 wrong checksum"), "not at once: {at_once}");
     tokio::time::sleep(std::time::Duration::from_millis(1500)).await;
     let later = page.value(told).await?;
-    assert!(later.as_str().unwrap_or_default().contains("1 telegram, 1 check failed"), "{later}");
+    assert!(later.as_str().unwrap_or_default().contains("1 telegram, 1 wrong checksum"), "{later}");
     page.close().await
 }
 

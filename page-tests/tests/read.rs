@@ -23,13 +23,13 @@ async fn a_pasted_telegram_is_read() -> Result {
     );
     assert_eq!(page.texts(".fields td.value").await?, ["1", "3", "200", "3", "3584h"]);
     assert_eq!(page.text(".check-result .verdict").await?, "CRC is valid");
-    assert!(page.text(".read-as").await?.contains("1 telegram, check right"));
+    assert!(page.text(".read-as").await?.contains("1 telegram, checksum valid"));
     assert!(page.text(".said-lines").await?.contains("Read 3 holding registers from 200"));
     // Typing on changes what is said at once.
     page.click(".editor textarea").await?;
     page.press(Key::End + Key::Backspace + "6").await?;
     page.settle().await?;
-    assert_eq!(page.text(".check-result .verdict").await?, "CRC does not match");
+    assert_eq!(page.text(".check-result .verdict").await?, "CRC is wrong");
     assert!(page.text(".said-lines").await?.contains("damaged"));
     page.close().await
 }
@@ -270,7 +270,7 @@ async fn bytes_are_copied_and_a_refusal_is_told() -> Result {
     page.click_text("[role=menuitem]", "Hex with spaces").await?;
     page.until("[role=status]", "Copied.").await?;
     assert_eq!(page.clipboard().await?, BROKEN);
-    page.click_text(".check-result button", "Copy with the computed check").await?;
+    page.click_text(".check-result button", "Copy with the correct checksum").await?;
     page.until(".check-result button", "Copied").await?;
     assert_eq!(page.clipboard().await?, "01 03 06 00 08 42 A4 F1 DE 50 E7");
     // Where the browser refuses, nothing is called copied.
@@ -279,7 +279,7 @@ async fn bytes_are_copied_and_a_refusal_is_told() -> Result {
     )
     .await?;
     tokio::time::sleep(std::time::Duration::from_millis(2200)).await;
-    page.click_text(".check-result button", "Copy with the computed check").await?;
+    page.click_text(".check-result button", "Copy with the correct checksum").await?;
     page.until("[role=status]", "does not let Buslens copy").await?;
     assert!(!page.text(".check-result").await?.contains("Copied"));
     page.close().await

@@ -1,4 +1,4 @@
-//! What may have happened to a telegram whose check failed.
+//! What may have happened to a telegram whose checksum is wrong.
 
 use leptos::prelude::*;
 
@@ -23,7 +23,7 @@ pub fn Causes(shown: Shown) -> impl IntoView {
     (!causes.is_empty()).then(|| {
         view! {
             <section class="part causes">
-                <h3>"What may have happened"</h3>
+                <h3>"Possible causes"</h3>
                 {warning.map(|warning| view! { <p class="advice"><Icon glyph=Glyph::Warning />{warning}</p> })}
                 <ol>{causes}</ol>
             </section>
@@ -42,7 +42,7 @@ fn Cause(shown: Shown, cause: Explanation, open: bool) -> impl IntoView {
     };
     let both = Link { telegram: 1, ..Link::to(format!("{}\n{}", hex(&found), hex(&right)), options) };
     let title = cause.hypothesis.text(&found).sentence() + ".";
-    let odds = format!("By chance: {}. {}.", cause.hypothesis.odds(), cause.sense().sentence());
+    let odds = format!("Chance of a false match: {}. {}.", cause.hypothesis.odds(), cause.sense().sentence());
     let copied = hex(&right);
     let said = cause.said.sentence() + ".";
     view! {
@@ -55,11 +55,11 @@ fn Cause(shown: Shown, cause: Explanation, open: bool) -> impl IntoView {
                     <span>"Corrected"</span>
                     <Marked bytes=right spans=cause.added.clone() class="good" />
                 </div>
-                <p>"It would say: " <strong>{said}</strong></p>
+                <p>"Meaning: " <strong>{said}</strong></p>
                 <p class="note">{odds}</p>
                 <div class="acts">
                     <CopyButton text=copied label="Copy the corrected bytes" class="low" />
-                    <a class="button low" href=href(View::Read, &both)>"Open both"</a>
+                    <a class="button low" href=href(View::Read, &both)>"Compare both"</a>
                 </div>
             </details>
         </li>

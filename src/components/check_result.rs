@@ -30,7 +30,7 @@ fn Checked(shown: Shown, check: Check, lights: Lights) -> impl IntoView {
         View::Check,
         &link_to(Span::new(covered.from, covered.to + check.width).of(shown.bytes()), check.kind),
     );
-    let title = if ok { format!("{short} is valid") } else { format!("{short} does not match") };
+    let title = if ok { format!("{short} is valid") } else { format!("{short} is wrong") };
     let order = if check.low_first && check.width > 1 { "low byte first" } else { "" };
     let corrected = hex(&corrected(shown.bytes(), &check));
     view! {
@@ -71,7 +71,9 @@ fn Checked(shown: Shown, check: Check, lights: Lights) -> impl IntoView {
                 .then(|| {
                     view! {
                         <p class="note">
-                            "Some byte is not what its sender checked, or is missing or too many, or the check itself is wrong. What is said of the telegram may be wrong, too."
+                            {format!(
+                                "A byte was changed, lost or added on the way, or the {short} itself is wrong. The {short} cannot tell which, so the reading above may be wrong, too.",
+                            )}
                         </p>
                     }
                 })}
@@ -79,7 +81,7 @@ fn Checked(shown: Shown, check: Check, lights: Lights) -> impl IntoView {
                 <a href=followed>"Follow it step by step"</a>
                 {(!ok)
                     .then(|| {
-                        view! { <CopyButton text=corrected label="Copy with the computed check" class="low" /> }
+                        view! { <CopyButton text=corrected label="Copy with the correct checksum" class="low" /> }
                     })}
             </p>
         </section>
@@ -91,15 +93,18 @@ fn Checked(shown: Shown, check: Check, lights: Lights) -> impl IntoView {
 fn Unchecked(shown: Shown) -> impl IntoView {
     let protocol = shown.telegram.choice.protocol.label;
     let (title, why) = match shown.detail.verdict {
-        Verdict::Unchecked => {
-            ("Not checked", "It is too short to have its check: it was cut, or more is to come.".to_owned())
-        }
+        Verdict::Unchecked => (
+            "Not checked",
+            "It is too short to hold its checksum: it was cut, or more is to come.".to_owned(),
+        ),
         // A short acknowledgement of PROFIBUS is a byte of its own.
-        _ if shown.bytes().len() == 1 => ("No check", "It is a single byte, which has no check.".to_owned()),
+        _ if shown.bytes().len() == 1 => {
+            ("No checksum", "A short acknowledgement is one byte and has no checksum.".to_owned())
+        }
         _ => (
-            "No check of its own",
+            "No checksum of its own",
             format!(
-                "{protocol} has none here: what carries it checks the bytes. A changed byte cannot be told."
+                "{protocol} has none at this level: the layer below protects the bytes, so a changed byte cannot be detected here."
             ),
         ),
     };
@@ -111,7 +116,7 @@ fn Unchecked(shown: Shown) -> impl IntoView {
     }
 }
 
-/// The bytes with the check as it should be.
+/// The bytes with the checksum as it should be.
 fn corrected(bytes: &[u8], check: &Check) -> Vec<u8> {
     let place = Span::new(check.covered.to, check.covered.to + check.width);
     let computed = &check.computed.to_be_bytes()[8 - check.width..];

@@ -76,7 +76,7 @@ fn CopyLink() -> impl IntoView {
                 );
             };
             if copy(toasts, link).await {
-                toasts.say("The link is copied. It holds all that is shown; no server sees it.");
+                toasts.say("Link copied. It contains everything shown; nothing is sent to a server.");
             }
         });
     };
@@ -115,9 +115,9 @@ const KEYS: [(&str, &str); 9] = [
     ("Arrow keys", "go from byte to byte, from field to field, from telegram to telegram"),
     ("← →", "in fields: close and open a group"),
     ("Home, End", "go to the first and the last"),
-    ("Esc", "lets go of the chosen byte, closes a menu"),
+    ("Esc", "clears the selection, closes a menu"),
     ("Ctrl + V", "anywhere in Read: pastes telegrams or a log in the place of the input"),
-    ("Alt + ←, Alt + →", "go back and forward between what was shown"),
+    ("Alt + ←, Alt + →", "previous and next state"),
 ];
 
 /// The keys that do something, and the list of them.

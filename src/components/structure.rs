@@ -49,7 +49,7 @@ fn Explained(row: Row) -> impl IntoView {
     let size = match row.size {
         Size::Fixed(n) => Message::bytes(n).to_string(),
         Size::Each(n) => format!("{} each", Message::bytes(n)),
-        Size::Rest | Size::Group => "all bytes up to the check".to_owned(),
+        Size::Rest | Size::Group => "all bytes up to the checksum".to_owned(),
     };
     let offset = row.offset.map_or(String::new(), |offset| format!(", from byte {offset}"));
     let limits = spec.limits.map(|(from, to)| format!(" Allowed: {from} to {to}."));

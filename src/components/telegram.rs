@@ -19,7 +19,7 @@ pub struct Details {
     pub detail: Detail,
     /// How it was read.
     pub options: Options,
-    /// What may have happened where its check failed, best first.
+    /// Possible causes where its check failed, best first.
     pub causes: Vec<Explanation>,
     /// Why that cannot be told, if so.
     pub undecidable: Option<Message>,

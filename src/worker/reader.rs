@@ -165,7 +165,7 @@ impl<S: Source> Reader<S> {
             text += &format!("- {sentence}\n");
         }
         if !self.findings.is_empty() {
-            text += "\nWhat is wrong, as far as the log tells:\n";
+            text += "\nWhat the log shows to be wrong:\n";
             for (number, finding) in (1..).zip(&self.findings) {
                 let count = finding.evidence.len();
                 let noun = if count == 1 { "telegram" } else { "telegrams" };
@@ -247,9 +247,9 @@ fn about(entry: &Entry) -> &'static str {
         Role::Copy => "The log has it twice; this copy is not counted.",
         Role::Broadcast => "Nobody answers it: it is for all.",
         Role::Late => "It came after other requests were sent.",
-        Role::Unasked => "Nobody asked for it, as far as the log goes.",
+        Role::Unasked => "The log has no request for it.",
         Role::Discarded => {
-            "No telegram with a right check begins here: noise, a telegram whose beginning was lost, or another \
+            "No telegram with a valid checksum begins here: noise, a telegram whose beginning was lost, or another \
              protocol."
         }
         _ if entry.unanswered() => "Nobody answered it.",

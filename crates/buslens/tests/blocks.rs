@@ -124,7 +124,7 @@ fn decode_reads_them() {
     // A telegram stays one, even with a fault.
     assert_eq!(
         said("memograph-rsg45", "01 03 00 C8 00 03 84 36"),
-        "Ask unit 1 for Universal channel 1, but the check does not match"
+        "Ask unit 1 for Universal channel 1, but the checksum is wrong"
     );
 }
 

@@ -142,7 +142,7 @@ fn a_refusal_says_what_was_asked_for() {
     assert_eq!(found[0].evidence, [1, 3]);
     assert_eq!(
         found[0].text.to_string(),
-        "unit 1 refuses to give Motorpoti ramp time (OP.59): exception 2, address not allowed; of the request: \
+        "unit 1 rejects reading Motorpoti ramp time (OP.59): exception 2, illegal data address; of the request: \
          Motorpoti ramp time has 4 bytes; the telegram carries 2 of them"
     );
 }

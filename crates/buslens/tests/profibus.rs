@@ -464,7 +464,7 @@ fn the_printed_sequence_in_words() {
     }
     assert_eq!(said[0], "station 5 has no job; station 5 has no inputs");
     assert_eq!(said[1], "write 11 to index 2300h of station 5; send station 5 no outputs");
-    let refused = "station 5 refuses to write index 2300h: value out of range (error 8-0-0030h)";
+    let refused = "station 5 rejects the job to write index 2300h: value out of range (error 8-0-0030h)";
     assert!(said[6].starts_with(refused), "{}", said[6]);
     assert!(said[10].starts_with("station 5 confirms: index 2300h written with 3;"), "{}", said[10]);
     assert!(said[11].starts_with("ask station 5 for index 2200h;"), "{}", said[11]);
@@ -543,13 +543,13 @@ fn every_error_of_the_manual_has_its_name() {
         assert_eq!(field.meaning().unwrap().to_string(), label);
         let said = channel.meaning(who()).to_string();
         let number = format!("{class}-{code}-{additional:04X}h");
-        assert_eq!(said, format!("station 5 refuses to read index 2200h: {label} (error {number})"));
+        assert_eq!(said, format!("station 5 rejects the job to read index 2200h: {label} (error {number})"));
     }
     let unknown = confirmation("C2 00 22 00 08 00 00 31");
     assert_eq!(unknown.refusal().unwrap().name(), None);
     assert_eq!(
         unknown.meaning(who()).to_string(),
-        "station 5 refuses to write index 2200h with error 8-0-0031h, which the manual does not list"
+        "station 5 rejects the job to write index 2200h with error 8-0-0031h (not listed in the manual)"
     );
 }
 
@@ -810,7 +810,7 @@ fn set_prm_tells_watchdog_lock_and_ident() {
     assert_eq!(says(&fields, "ident"), "KEB F5 PROFIBUS-DP operator");
     assert_eq!(
         body.meaning(who()).to_string(),
-        "set up station 5 as 05EBh: locked for other masters, watchdog 500 ms"
+        "parameterise station 5 (ident 05EBh): locked for other masters, watchdog 500 ms"
     );
     for (status, said) in [
         ("00", "not locked, settings may change"),
@@ -987,13 +987,10 @@ fn frames_in_a_sentence() {
         ),
         (
             "68 08 08 68 85 82 5D 3D 3E 00 00 00 DF 16",
-            "set up station 5 as 0000h: not locked, settings may change, no watchdog",
+            "parameterise station 5 (ident 0000h): not locked, settings may change, no watchdog",
         ),
         ("68 07 07 68 FF 82 46 3A 3E 02 00 41 16", "command all stations (all groups): clear outputs"),
-        (
-            "68 06 06 68 85 82 5D 21 3E 01 C4 16",
-            "station 5: a service that Buslens does not know, with 1 byte of data",
-        ),
+        ("68 06 06 68 85 82 5D 21 3E 01 C4 16", "station 5: unknown service, with 1 byte of data"),
     ] {
         let (read, fields) = frame(hex);
         assert_eq!(read.meaning().to_string(), said, "{hex}");

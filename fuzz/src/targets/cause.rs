@@ -3,7 +3,7 @@ use crate::{Input, make};
 use buslens::field::hex;
 use buslens::tool::{Options, Protocol, Verdict, decode};
 
-/// What may have happened to a telegram whose check fails.
+/// Possible causes to a telegram whose check fails.
 pub static TARGET: Target = Target {
     key: "cause",
     about: "causes of failed checks: each would make the check right",

@@ -86,7 +86,7 @@ pub struct LogState {
     pub sample: RwSignal<String>,
 }
 
-/// Lines without bytes: their numbers and text, and how many more there are.
+/// Unread lines: their numbers and text, and how many more there are.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unread {
     pub lines: Vec<(u32, String)>,

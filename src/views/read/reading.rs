@@ -38,10 +38,10 @@ pub fn ReadAs() -> impl IntoView {
         }
         let (failed, class) = match summary.check_failed {
             0 if summary.checked == 0 => (String::new(), ""),
-            0 if summary.telegrams == 1 => ("check right".to_owned(), "good"),
-            0 if summary.checked == summary.telegrams => ("all checks right".to_owned(), "good"),
+            0 if summary.telegrams == 1 => ("checksum valid".to_owned(), "good"),
+            0 if summary.checked == summary.telegrams => ("all checksums valid".to_owned(), "good"),
             0 => (String::new(), ""),
-            n => (format!("{} failed", count(n, "check")), "bad"),
+            n => (count(n, "wrong checksum"), "bad"),
         };
         let comma = if failed.is_empty() { "" } else { ", " };
         Some(
@@ -117,7 +117,7 @@ pub fn ReadingChoices() -> impl IntoView {
             />
             <Choose
                 label="Protocol"
-                otherwise="As the bytes tell"
+                otherwise="Detect from the bytes"
                 options=protocols
                 value=Signal::derive(move || read.choices().protocol)
                 on_choose=Callback::new(move |key| read.read_as(|choices| choices.protocol = key))
@@ -125,7 +125,7 @@ pub fn ReadingChoices() -> impl IntoView {
             <Show when=move || read.mode() == Mode::Telegrams>
                 <Choose
                     label="Direction"
-                    otherwise="As the bytes tell"
+                    otherwise="Detect from the bytes"
                     options=directions()
                     value=Signal::derive(move || read.choices().direction)
                     on_choose=Callback::new(move |key| read.read_as(|choices| choices.direction = key))

@@ -27,7 +27,7 @@ pub fn Start() -> impl IntoView {
             {missing}
             <h2>"What does this telegram say?"</h2>
             <p class="lead">
-                "Paste the bytes of a Modbus or PROFIBUS telegram, a whole log, or the mail they came in; or drop a file of any size. Every byte is explained, every check is checked, and what is wrong is said."
+                "Paste the bytes of a Modbus or PROFIBUS telegram, a whole log, or the mail they came in; or drop a file of any size. Every byte is explained, every checksum verified, every fault named."
             </p>
             <h3>"Or start with an example"</h3>
             <FirstExamples />

@@ -443,9 +443,13 @@ impl ReadState {
         let summary = self.report.get_untracked().0.summary();
         match (summary.telegrams, summary.check_failed) {
             (0, _) => {}
-            (n, 0) => self.toasts.announce(format!("{}, no failed check", count(n, "telegram"))),
+            (n, 0) => self.toasts.announce(format!("{}, no wrong checksum", count(n, "telegram"))),
             (n, failed) => {
-                self.toasts.announce(format!("{}, {} failed", count(n, "telegram"), count(failed, "check")));
+                self.toasts.announce(format!(
+                    "{}, {}",
+                    count(n, "telegram"),
+                    count(failed, "wrong checksum")
+                ));
             }
         }
     }

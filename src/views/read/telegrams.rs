@@ -47,7 +47,7 @@ pub fn Telegrams() -> impl IntoView {
                     <FieldTable rows lights label="Fields" />
                     {move || read.shown().map(|shown| view! { <More shown lights /> })}
                 </section>
-                <section class="rail" aria-label="Check and chosen byte">
+                <section class="rail" aria-label="Checksum and chosen byte">
                     {move || {
                         read.shown()
                             .map(|shown| {

@@ -88,7 +88,7 @@ pub(super) const fn inverter_address(parameter: u16) -> u16 {
 pub(super) static EXCEPTIONS: Spec = Spec::new("exception", "Exception code")
     .short("Exception")
     .role(Role::Status)
-    .note("Why the operator refuses.")
+    .note("Why the operator rejects the request.")
     .source("KEB COMBIVERT F5 Modbus operator, 4.2")
     .names(&[
         Name {
@@ -131,7 +131,7 @@ pub(super) static INVERTER_PARAMETERS: &[Parameter] = &[
             .names(&[Name { value: 0, label: "0, no Modbus", note: "All activity on Modbus is off." }])
             .initial(1)
             .note(
-                "The address on the bus, 1 as delivered. The Modbus operator can have one of its own; if \
+                "The address on the bus; factory setting 1. The Modbus operator can have one of its own; if \
              it has not, 0 switches Modbus off.",
             ),
     ),

@@ -145,7 +145,7 @@ fn entries(profile: &'static Profile, registers: &Registers<'_>, settings: &Sett
         if !reads && parameter.access == Access::Read {
             say(
                 "read-only",
-                message!("{label} can only be read: writing by entry {n} is refused", label = label, n = n),
+                message!("{label} can only be read: writing by entry {n} is rejected", label = label, n = n),
             );
         }
     }
@@ -334,7 +334,7 @@ static PARAMETERS: &[Parameter] = &[
             })
             .initial(0xC0)
             .note(kept!(
-                "Protocol and character format of the Modbus line; C0h as delivered. The next telegram \
+                "Protocol and character format of the Modbus line; factory setting C0h. The next telegram \
                  already has to come in the new format."
             )),
     )
@@ -347,7 +347,7 @@ static PARAMETERS: &[Parameter] = &[
             .names(&[Name { value: 255, label: "taken from Sy.06", note: "If Sy.06 is 0, Modbus is off." }])
             .initial(255)
             .note(kept!(
-                "The operator's address on the line, 1 to 247; 255, as delivered, leaves it to Sy.06."
+                "The operator's address on the line, 1 to 247; 255, the factory setting, leaves it to Sy.06."
             )),
     )
     .length(1),
@@ -357,7 +357,7 @@ static PARAMETERS: &[Parameter] = &[
         Spec::new("mdb_map_start_addr_rd", "MDB_MapStartAddr_Rd")
             .format(Format::HexAddress)
             .limits(0, 0x1FFF)
-            .note(kept!("The register behind which entry 0 of the read mapping list is; 0 as delivered.")),
+            .note(kept!("The register behind which entry 0 of the read mapping list is; factory setting 0.")),
     )
     .length(2),
     operator(
@@ -366,7 +366,9 @@ static PARAMETERS: &[Parameter] = &[
         Spec::new("mdb_map_start_addr_wr", "MDB_MapStartAddr_Wr")
             .format(Format::HexAddress)
             .limits(0, 0x1FFF)
-            .note(kept!("The register behind which entry 0 of the write mapping list is; 0 as delivered.")),
+            .note(kept!(
+                "The register behind which entry 0 of the write mapping list is; factory setting 0."
+            )),
     )
     .length(2),
     operator(
@@ -375,7 +377,7 @@ static PARAMETERS: &[Parameter] = &[
         Spec::new("mdb_map_nr_rd", "MDB_MapNr_Rd")
             .limits(0, 100)
             .initial(2)
-            .note(kept!("How many entries of the read mapping list are in use; 2 as delivered.")),
+            .note(kept!("How many entries of the read mapping list are in use; factory setting 2.")),
     )
     .length(1),
     operator(
@@ -384,7 +386,7 @@ static PARAMETERS: &[Parameter] = &[
         Spec::new("mdb_map_nr_wr", "MDB_MapNr_Wr")
             .limits(0, 100)
             .initial(2)
-            .note(kept!("How many entries of the write mapping list are in use; 2 as delivered.")),
+            .note(kept!("How many entries of the write mapping list are in use; factory setting 2.")),
     )
     .length(1),
     operator(
@@ -397,7 +399,7 @@ static PARAMETERS: &[Parameter] = &[
             ])
             .only_named()
             .initial(1)
-            .note(kept!("What resets the watchdog of the bus; 01h as delivered. Pn.06 is its time.")),
+            .note(kept!("What resets the watchdog of the bus; factory setting 01h. Pn.06 is its time.")),
     )
     .length(1),
     operator(
@@ -411,7 +413,7 @@ static PARAMETERS: &[Parameter] = &[
             .only_named()
             .initial(1)
             .note(kept!(
-                "What starts the watchdog of the bus; 01h as delivered. Pn.05 says what happens when it \
+                "What starts the watchdog of the bus; factory setting 01h. Pn.05 says what happens when it \
                  runs out."
             )),
     )

@@ -202,7 +202,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         "OS04",
         Spec::new("diag_response_delay_time", "Diag Response delay time")
             .unit("ms")
-            .note("How long the diagnosis interface waits at least before it answers; 0 as delivered.")
+            .note("How long the diagnosis interface waits at least before it answers; factory setting 0.")
     )
     .length(1),
     operator(
@@ -219,7 +219,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         0x2187,
         "OS07",
         Spec::new("hsp5_tout_count", "HSP5 Tout Count")
-            .note("How often the inverter did not answer the operator in time; 0 as delivered.")
+            .note("How often the inverter did not answer the operator in time; factory setting 0.")
     )
     .length(2),
     listed(
@@ -311,7 +311,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
             .names(NO_CYCLE)
             .rule(|raw| (!raw.is_multiple_of(1000)).then_some("only multiples of 1000 µs are possible"))
             .note(kept!(
-                "The time from telegram to telegram in cyclic mode, in steps of 1000; 0 as delivered. Best is \
+                "The time from telegram to telegram in cyclic mode, in steps of 1000; factory setting 0. Best is \
                  1000 or 2000. All process data take two telegrams: their cycle is 2 × SelComCycle, 2 ms at \
                  least."
             ))
@@ -322,7 +322,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         0x2199,
         "ComCycle",
         Spec::new("com_cycle", "Actual telegram cycle").unit("µs").names(NO_CYCLE).note(
-            "The time from telegram to telegram as it is; 0 as delivered. It stays 0 where the inverter lacks cyclic \
+            "The time from telegram to telegram as it is; factory setting 0. It stays 0 where the inverter lacks cyclic \
              mode (see FU_HSP5Supp7) or there is no data exchange."
         )
     )
@@ -428,7 +428,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
             ])
             .note(kept!(
                 "When process output data are passed on to the inverter, so that it need not take the \
-                 zeros of a bus that stopped; 0 as delivered."
+                 zeros of a bus that stopped; factory setting 0."
             ))
     )
     .length(1),
@@ -438,7 +438,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         Spec::new("fbs_command", "FBS Command")
             .bits(keb_f5::COMMAND)
             .only_named()
-            .note("Has the operator do something; it sets bit 15 once that is done. 0 as delivered.")
+            .note("Has the operator do something; it sets bit 15 once that is done. Factory setting 0.")
     )
     .length(2)
     .since("1.5"),
@@ -452,7 +452,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
             ])
             .names(&[Name { value: 0, label: "power on", note: "" }])
             .only_named()
-            .note(kept!("What starts the watchdog of the bus; 0 as delivered. See Watchdog Inhibit, too."))
+            .note(kept!("What starts the watchdog of the bus; factory setting 0. See Watchdog Inhibit, too."))
     )
     .length(1)
     .since("1.5"),
@@ -461,7 +461,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         "OS06",
         Spec::new("hsp5_max_inv_busy_retries", "HSP5 Max InvBusy retries").note(
             "How often the operator repeats what the inverter was too busy for, before it reports \
-             that; 0 as delivered."
+             that; factory setting 0."
         )
     )
     .length(1),
@@ -477,7 +477,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
             .ranges(&[Range { from: 1, to: 254, label: "standard" }])
             .initial(0xFF)
             .note(kept!(
-                "Which process data descriptions count; FFh as delivered. Section 9.1 calls it PD_Stored."
+                "Which process data descriptions count; factory setting FFh. Section 9.1 calls it PD_Stored."
             ))
     )
     .length(1)
@@ -514,7 +514,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
             ])
             .only_named()
             .note(
-                "Which values come low byte first; 0 as delivered. Kept at once, but in force only after \
+                "Which values come low byte first; factory setting 0. Kept at once, but in force only after \
                  the next switching on."
             )
     )
@@ -526,7 +526,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         Spec::new("pd_out2_enable", "PD_Out2_Enable")
             .bits(BYTES_9_TO_16)
             .note(kept!(
-                "Which of the bytes 9 to 16 of process output data are in use; 0 as delivered. They go in a \
+                "Which of the bytes 9 to 16 of process output data are in use; factory setting 0. They go in a \
                  telegram of their own, which halves the rate of process data."
             ))
     )
@@ -538,7 +538,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         Spec::new("pd_in2_enable", "PD_In2_Enable")
             .bits(BYTES_9_TO_16)
             .note(kept!(
-                "Which of the bytes 9 to 16 of process input data are in use; 0 as delivered. They go in a \
+                "Which of the bytes 9 to 16 of process input data are in use; factory setting 0. They go in a \
                  telegram of their own, which halves the rate of process data."
             ))
     )
@@ -548,7 +548,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         0x5FF8,
         "Fb10",
         Spec::new("pd_in_enable", "PD_In_Enable").bits(BYTES_1_TO_8).initial(0x0F).note(
-            "Which of the bytes 1 to 8 of process input data are in use; 0Fh as delivered. The \
+            "Which of the bytes 1 to 8 of process input data are in use; factory setting 0Fh. The \
              description goes to the inverter; if that refuses it, all stay off. Section 9.1 calls it \
              PE_Enabled, too."
         )
@@ -567,7 +567,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
             .only_named()
             .initial(7)
             .note(kept!(
-                "What resets the watchdog of the bus; 07h as delivered. The watchdog itself is set in the \
+                "What resets the watchdog of the bus; factory setting 07h. The watchdog itself is set in the \
                  inverter."
             ))
     )
@@ -576,7 +576,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         0x5FFA,
         "Fb09",
         Spec::new("pd_in_cycle", "PD_In_Cycle").unit("ms").initial(25).note(kept!(
-            "How often the process input data are fetched from the inverter; 25 ms as delivered. With more \
+            "How often the process input data are fetched from the inverter; factory setting 25 ms. With more \
              than 8 bytes the second part is fetched directly after the first. Section 9.1 calls it \
              PE_Cycle, too."
         ))
@@ -588,7 +588,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         1,
         "Fb00",
         Spec::new("pd_in_length", "PD_In_Length").unit("bytes").limits(0, 16).initial(4).note(
-            "How many bytes of process input data there are; 4 as delivered. Writing it switches them \
+            "How many bytes of process input data there are; factory setting 4. Writing it switches them \
              off."
         )
     )
@@ -598,7 +598,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         1,
         "Fb12",
         Spec::new("pd_out_length", "PD_Out_Length").unit("bytes").limits(0, 16).initial(4).note(
-            "How many bytes of process output data there are; 4 as delivered. Writing it switches them \
+            "How many bytes of process output data there are; factory setting 4. Writing it switches them \
              off."
         )
     )
@@ -607,7 +607,7 @@ static PARAMETERS: &[Parameter] = with_descriptions![
         0x6002,
         "Fb21",
         Spec::new("pd_out_enable", "PD_Out_Enable").bits(BYTES_1_TO_8).initial(0x0F).note(
-            "Which of the bytes 1 to 8 of process output data are in use; 0Fh as delivered. The \
+            "Which of the bytes 1 to 8 of process output data are in use; factory setting 0Fh. The \
              description goes to the inverter; if that refuses it, all stay off. Outputs go on to the \
              inverter only when they change."
         )
@@ -745,7 +745,7 @@ static DISPLAY: &[Display] = &[
     shows("Error", "the link to the inverter fails while the operator starts"),
     shows("o_Flo", "a value gets too large in a calculation"),
     shows("t_out", "the inverter's control board does not answer"),
-    shows("IDAtA", "value not allowed"),
+    shows("IDAtA", "illegal data value"),
     shows("rOnly", "parameter can only be read"),
     shows("E_Bcc", "link to the inverter: wrong checksum"),
     shows("Busy", "the inverter is busy"),

@@ -320,14 +320,14 @@ impl Profile {
             span,
             if first == last {
                 message!(
-                    "{index} has subindex {first} only: the slave refuses {subindex} with error 6-5-0011h",
+                    "{index} has subindex {first} only: the slave rejects {subindex} with error 6-5-0011h",
                     index = index,
                     first = first,
                     subindex = subindex
                 )
             } else {
                 message!(
-                    "{index} has the subindices {first} to {last}: the slave refuses {subindex} with error 6-5-0011h",
+                    "{index} has the subindices {first} to {last}: the slave rejects {subindex} with error 6-5-0011h",
                     index = index,
                     first = first,
                     last = last,

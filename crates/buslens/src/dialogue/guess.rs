@@ -44,11 +44,11 @@ pub fn direction(pdu: &[u8], around: usize, awaited: bool, dialect: &'static Dia
     };
     if function & EXCEPTION != 0 {
         let plain = function & !EXCEPTION;
-        let reason = message!("80h in the function code marks a refusal of function {f}", f = plain);
+        let reason = message!("80h in the function code marks an exception to function {f}", f = plain);
         return Guess { direction: Direction::Response, certainty: Certainty::Certain, reason };
     }
     if !KINDS.iter().any(|kind| kind.function == function) {
-        let reason = message!("function {f} is not known: both directions are possible", f = function);
+        let reason = message!("function {f} is unknown, so both directions are possible", f = function);
         return Guess { direction: Direction::Request, certainty: Certainty::Open, reason };
     }
     let request = Pdu::kind(function, Direction::Request, dialect);

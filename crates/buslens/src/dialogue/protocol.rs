@@ -81,7 +81,7 @@ fn choose(
         }
         None if fits[common].bits > 0 => (PROTOCOLS[common], fits[common].reason.clone()),
         None if together == 0 => (PROTOCOLS[own], fits[own].reason.clone()),
-        None => (PROTOCOLS[common], message!("the others are of this protocol, and nothing fits better")),
+        None => (PROTOCOLS[common], message!("its neighbours are of this protocol, and nothing fits better")),
     };
     let mut others: Vec<(&'static Protocol, Fit)> = Vec::new();
     for (protocol, fit) in PROTOCOLS.iter().copied().zip(fits) {

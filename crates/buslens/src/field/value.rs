@@ -102,9 +102,9 @@ impl Value {
                 None if !chosen.bits.is_empty() => bits(raw, chosen),
                 None => Message::term(chosen.label),
             }),
-            Self::Check(check) if check.ok() => Some(message!("matches the bytes before it")),
+            Self::Check(check) if check.ok() => Some(message!("valid")),
             Self::Check(check) => {
-                Some(message!("does not match: computed {computed}", computed = check.computed_bytes()))
+                Some(message!("wrong: computed {computed}", computed = check.computed_bytes()))
             }
             Self::Missing { width, found: 0 } => {
                 Some(message!("missing, {bytes} expected", bytes = Message::bytes(width)))

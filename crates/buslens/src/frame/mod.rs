@@ -127,10 +127,10 @@ impl Verdict {
     /// What it says, in a few words.
     pub const fn words(self) -> &'static str {
         match self {
-            Self::Right => "check right",
-            Self::Wrong => "check failed",
+            Self::Right => "checksum valid",
+            Self::Wrong => "checksum wrong",
             Self::Unchecked => "too short to check",
-            Self::NoCheck => "no check of its own",
+            Self::NoCheck => "no checksum of its own",
         }
     }
 }

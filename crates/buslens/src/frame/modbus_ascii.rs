@@ -42,10 +42,10 @@ pub static ASCII: Mode = Mode {
 fn fit(bytes: &[u8], settings: &Settings) -> Fit {
     match (ASCII.verdict(bytes), pdu_fit(ASCII.pdu_bytes(bytes), settings.dialect)) {
         (Verdict::Right, PduFit::Length) => {
-            Fit { bits: 12, reason: message!("its last byte is the LRC of the others, and its length fits") }
+            Fit { bits: 12, reason: message!("the last byte is a valid LRC, and the length fits") }
         }
-        (Verdict::Right, _) => Fit { bits: 5, reason: message!("its last byte is the LRC of the others") },
-        _ => Fit { bits: 0, reason: message!("its last byte is not the LRC of the others") },
+        (Verdict::Right, _) => Fit { bits: 5, reason: message!("the last byte is a valid LRC") },
+        _ => Fit { bits: 0, reason: message!("the last byte is not a valid LRC") },
     }
 }
 

@@ -17,9 +17,9 @@ pub static PROTOCOL: Protocol = Protocol {
     label: "Modbus RTU",
     fit: |bytes, settings| match RTU.verdict(bytes) {
         _ if first(bytes) < bytes.len() => {
-            Fit { bits: 20, reason: message!("it begins with a telegram whose CRC is right") }
+            Fit { bits: 20, reason: message!("it begins with a telegram whose CRC is valid") }
         }
-        Verdict::Right => Fit { bits: 20, reason: message!("its last two bytes are the CRC of the others") },
+        Verdict::Right => Fit { bits: 20, reason: message!("the last two bytes are a valid CRC") },
         _ => serial::fit(RTU.pdu_bytes(bytes), settings.dialect),
     },
     verdict: |bytes| RTU.verdict(bytes),
@@ -62,8 +62,7 @@ pub static RTU: Mode = Mode {
     check: Spec::new("crc", "CRC")
         .role(Role::Check)
         .note(
-            "CRC-16/MODBUS over all bytes before it, low byte first. A unit ignores a frame that does not \
-             match.",
+            "CRC-16/MODBUS over all bytes before it, low byte first. A unit ignores a frame whose CRC is wrong.",
         )
         .source("Modbus over serial line V1.02, 2.5.1.2"),
     algorithm: &CRC_16_MODBUS,

@@ -228,11 +228,12 @@ pub fn fit(pdu: &[u8], dialect: &'static Dialect) -> Fit {
     match pdu_fit(pdu, dialect) {
         PduFit::Length => Fit {
             bits: KNOWN + LENGTH,
-            reason: message!("function code and length fit, though the check does not match"),
+            reason: message!("function code and length fit, but the checksum does not"),
         },
-        PduFit::Function => {
-            Fit { bits: KNOWN, reason: message!("the function code is known; check and length do not fit") }
-        }
+        PduFit::Function => Fit {
+            bits: KNOWN,
+            reason: message!("the function code is known, but checksum and length do not fit"),
+        },
         PduFit::Nothing => Fit { bits: 0, reason: message!("nothing else fits better") },
     }
 }
@@ -265,6 +266,6 @@ pub fn pdu_fit(pdu: &[u8], dialect: &'static Dialect) -> PduFit {
 static UNIT: Spec = Spec::new("unit", "Unit address")
     .short("Unit")
     .role(Role::Unit)
-    .note("Which device is meant (older texts: slave address). 1 to 247; 0 speaks to all at once.")
+    .note("Address of the device (older texts: slave address), 1 to 247; 0 addresses all devices.")
     .source("Modbus over serial line V1.02, 2.2")
-    .names(&[Name { value: 0, label: "all units (broadcast)", note: "Every unit obeys, none answers." }]);
+    .names(&[Name { value: 0, label: "all units (broadcast)", note: "All units act on it; none answers." }]);

@@ -10,9 +10,9 @@ use crate::message;
 
 pub static PROTOCOL: Protocol = Protocol {
     key: "modbus-unchecked",
-    label: "Modbus RTU without its check",
+    label: "Modbus RTU without CRC",
     // Nothing in the bytes tells it from an RTU frame: that takes what stands around them.
-    fit: |_, _| Fit { bits: 0, reason: message!("nothing speaks for a telegram without its check") },
+    fit: |_, _| Fit { bits: 0, reason: message!("nothing speaks for a telegram without its checksum") },
     verdict: |_| Verdict::NoCheck,
     first: <[u8]>::len,
     unit: |bytes| bytes.first().copied(),

@@ -623,13 +623,13 @@ static START_AGAIN: Spec = Spec::new("start_again", "Start delimiter again")
 
 static DESTINATION: Spec = Spec::new("destination", "Destination")
     .role(Role::Unit)
-    .note("Who is meant. 0 to 126; 127 speaks to all at once.")
+    .note("Address of the receiver, 0 to 126; 127 addresses all stations.")
     .source(SOURCE)
     .bits(ADDRESS_BITS);
 
 static SOURCE_ADDRESS: Spec = Spec::new("source", "Source")
     .role(Role::Unit)
-    .note("Who speaks. 0 to 126.")
+    .note("Address of the sender, 0 to 126.")
     .source(SOURCE)
     .bits(ADDRESS_BITS);
 
@@ -719,7 +719,7 @@ const ACCESS_POINT: Spec =
 
 static CHECK: Spec = Spec::new("fcs", "FCS")
     .role(Role::Check)
-    .note("The sum of all bytes from the destination to the data. A frame that does not match is ignored.")
+    .note("The sum of all bytes from the destination to the data. A frame whose sum is wrong is ignored.")
     .source(SOURCE);
 
 static END_DELIMITER: Spec = Spec::new("end", "End delimiter")

@@ -191,13 +191,13 @@ static SUB_FUNCTIONS: &[SubFunction] = &[
     SubFunction::told(
         12,
         "return bus communication error count",
-        "Asks how many telegrams had a wrong check.",
+        "Asks how many telegrams had a wrong checksum.",
         &COUNT,
     ),
     SubFunction::told(
         13,
         "return bus exception error count",
-        "Asks how many requests the server has refused.",
+        "Asks how many requests the server has rejected with an exception.",
         &COUNT,
     ),
     SubFunction::told(
@@ -215,13 +215,13 @@ static SUB_FUNCTIONS: &[SubFunction] = &[
     SubFunction::told(
         16,
         "return server NAK count",
-        "Asks how often the server has refused with exception 7.",
+        "Asks how often the server has answered with exception 7.",
         &COUNT,
     ),
     SubFunction::told(
         17,
         "return server busy count",
-        "Asks how often the server has refused with exception 6.",
+        "Asks how often the server has answered with exception 6.",
         &COUNT,
     ),
     SubFunction::told(

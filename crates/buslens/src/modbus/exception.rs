@@ -11,7 +11,7 @@ pub static RESPONSE: Kind = Kind {
     function: EXCEPTION,
     direction: Direction::Response,
     spec: Spec::new("exception_response", "Exception")
-        .note("The server refuses. The function code is that of the request with 80h added.")
+        .note("The server rejects the request. The function code is that of the request plus 80h.")
         .source(SOURCE),
     length: Length::Fixed(2),
     serial_only: false,
@@ -33,13 +33,13 @@ impl Body for Exception {
     fn meaning(&self, who: Server) -> Message {
         match CODE.name(self.code.into()) {
             Some(name) => message!(
-                "{who} refuses: exception {code}, {name}",
+                "{who} rejects the request: exception {code}, {name}",
                 who = who.name(),
                 code = self.code,
                 name = Message::term(name.label)
             ),
             None => message!(
-                "{who} refuses with exception {code} ({hex}), which the standard does not define",
+                "{who} rejects the request with exception {code} ({hex}), which the standard does not define",
                 who = who.name(),
                 code = self.code,
                 hex = hex_value(self.code.into(), 1)
@@ -55,31 +55,39 @@ impl Body for Exception {
 pub(super) static CODE: Spec = Spec::new("exception", "Exception code")
     .short("Exception")
     .role(Role::Status)
-    .note("Why the server refuses.")
+    .note("Why the server rejects the request.")
     .source(SOURCE)
     .names(&[
         Name {
             value: 1,
-            label: "function not allowed",
+            label: "illegal function",
             note: "The server does not know this function, or not in its present state.",
         },
         Name {
             value: 2,
-            label: "address not allowed",
+            label: "illegal data address",
             note: "At least one of the registers asked for does not exist in this server.",
         },
         Name {
             value: 3,
-            label: "value not allowed",
+            label: "illegal data value",
             note: "A count or length in the request is wrong, or the value is out of range.",
         },
-        Name { value: 4, label: "server failure", note: "The server failed while it worked on the request." },
+        Name {
+            value: 4,
+            label: "server device failure",
+            note: "The server failed while it worked on the request.",
+        },
         Name {
             value: 5,
-            label: "accepted, not finished",
+            label: "acknowledge",
             note: "The server needs time. Ask again later whether it is done.",
         },
-        Name { value: 6, label: "server busy", note: "The server works on something long. Try again later." },
+        Name {
+            value: 6,
+            label: "server device busy",
+            note: "The server works on something long. Try again later.",
+        },
         Name { value: 8, label: "memory parity error", note: "The server found its file memory damaged." },
         Name {
             value: 10,
@@ -88,7 +96,7 @@ pub(super) static CODE: Spec = Spec::new("exception", "Exception code")
         },
         Name {
             value: 11,
-            label: "gateway target does not respond",
+            label: "gateway target device failed to respond",
             note: "Usually the device behind the gateway is off or not connected.",
         },
     ]);

@@ -60,7 +60,7 @@ pub static STATUS: Choice = Choice::new(
 /// How many requests were done.
 pub static EVENTS: Spec = Spec::new("events", "Event count")
     .short("Events")
-    .note("Requests done without a fault. Refused ones and those that ask for this counter do not count.")
+    .note("Requests done without a fault. Rejected ones and those that ask for this counter do not count.")
     .source(SOURCE);
 
 const SOURCE: &str = "Modbus application protocol V1.1b3, 6.9";

@@ -89,11 +89,11 @@ static EVENT: Spec = Spec::new("event", "Event")
         },
     ])
     .bits(&[
-        Bits::flag(0, "exception", "exception 1 to 3").note("A refusal with one of these codes was sent."),
+        Bits::flag(0, "exception", "exception 1 to 3").note("An exception with one of these codes was sent."),
         Bits::flag(1, "error", "communication error or exception 4")
-            .note("In a received telegram a communication error, in a sent one a refusal with code 4."),
-        Bits::flag(2, "busy", "exception 5 or 6").note("A refusal with one of these codes was sent."),
-        Bits::flag(3, "not_acknowledged", "exception 7").note("A refusal with this code was sent."),
+            .note("In a received telegram a communication error, in a sent one an exception with code 4."),
+        Bits::flag(2, "busy", "exception 5 or 6").note("An exception with one of these codes was sent."),
+        Bits::flag(3, "not_acknowledged", "exception 7").note("An exception with this code was sent."),
         Bits::part(4, 4, "kind", "kind").names(KIND_OF_EVENT).note(
             "Bit 4 is an overrun of characters or, in what was sent, a write timeout; bit 5 listen only \
              mode; bit 6 of a received telegram a broadcast.",

@@ -377,5 +377,5 @@ impl Telegram for Pdu {
 static FUNCTION: Spec = Spec::new("function", "Function code")
     .short("Function")
     .role(Role::Function)
-    .note("What the server is to do. A server that refuses sends it back with 80h added.")
+    .note("The requested operation. A server that rejects it sends it back with 80h added.")
     .source("Modbus application protocol V1.1b3, 4.1");

@@ -21,7 +21,9 @@ pub static RESPONSE: Kind = Kind {
     function: 24,
     direction: Direction::Response,
     spec: Spec::new("read_fifo_queue_response", "Read FIFO queue")
-        .note("What waits in the queue, up to 31 registers. A server refuses where there are more.")
+        .note(
+            "What waits in the queue, up to 31 registers. A server rejects the request where there are more.",
+        )
         .source(SOURCE),
     length: Length::CountedByTwo { at: 1, unit: 2 },
     serial_only: false,

@@ -37,7 +37,7 @@ impl Telegram for Unknown {
 impl Body for Unknown {
     fn meaning(&self, who: Server) -> Message {
         message!(
-            "{who}: a function that Buslens does not know, with {bytes} of data",
+            "{who}: unknown function, with {bytes} of data",
             who = who.name(),
             bytes = Message::bytes(self.data.len())
         )

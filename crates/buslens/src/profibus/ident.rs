@@ -30,6 +30,6 @@ pub fn walk(w: &mut dyn Walker, ident: &mut u16, expected: Option<u16>) -> Walk 
 static IDENT: Spec = Spec::new("ident", "Ident number")
     .short("Ident")
     .format(Format::Hex)
-    .note("Which type of device this is, high byte first. A slave refuses to be set up with another one.")
+    .note("Which type of device this is, high byte first. A slave rejects parameters with another one.")
     .source("KEB COMBIVERT F5 PROFIBUS-DP operator, 7.1 and 7.3")
     .names(&[Name { value: KEB_F5 as u64, label: "KEB F5 PROFIBUS-DP operator", note: "" }]);

@@ -316,7 +316,7 @@ impl Telegram for Channel {
                 control,
                 Severity::Error,
                 "read-and-write",
-                message!("read and write are both set: the slave will refuse that with error 5-4-0000h"),
+                message!("read and write are both set: the slave will reject that with error 5-4-0000h"),
             );
         }
         w.u8(&SUBINDEX, &mut self.subindex)?;
@@ -398,14 +398,14 @@ impl Channel {
         let error = self.refusal.number();
         match self.refusal.name() {
             Some(name) => message!(
-                "{who} refuses to {job}: {name} (error {error})",
+                "{who} rejects the job to {job}: {name} (error {error})",
                 who = who,
                 job = job,
                 name = Argument::Term(name.label),
                 error = error
             ),
             None => message!(
-                "{who} refuses to {job} with error {error}, which the manual does not list",
+                "{who} rejects the job to {job} with error {error} (not listed in the manual)",
                 who = who,
                 job = job,
                 error = error

@@ -79,7 +79,7 @@ impl Body for SetPrm {
             None => message!("no watchdog"),
         };
         message!(
-            "set up {who} as {ident}: {lock}, {watchdog}",
+            "parameterise {who} (ident {ident}): {lock}, {watchdog}",
             who = who,
             ident = hex_value(self.ident.into(), 2),
             lock = Argument::Term(lock),

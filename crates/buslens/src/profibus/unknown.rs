@@ -33,7 +33,7 @@ impl Telegram for Unknown {
 impl Body for Unknown {
     fn meaning(&self, who: Message) -> Message {
         message!(
-            "{who}: a service that Buslens does not know, with {bytes} of data",
+            "{who}: unknown service, with {bytes} of data",
             who = who,
             bytes = Message::bytes(self.data.len())
         )

@@ -100,7 +100,7 @@ impl Telegram for UserData {
         }
         if self.assumed && self.size != AS_DELIVERED {
             let message = message!(
-                "{size} bytes of process data, and no Chk_Cfg before that tells the layout: as delivered there are {usual}. Set what the master configures under Devices",
+                "{size} bytes of process data, and no Chk_Cfg before that tells the layout: the factory setting is {usual}. Set what the master configures under Devices",
                 size = self.size,
                 usual = AS_DELIVERED
             );

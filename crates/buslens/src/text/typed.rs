@@ -101,10 +101,9 @@ fn remark(word: &str, before: usize, span: Span) -> Remark {
         "0x" | "0X" => {
             ("digit-missing", message!("hex digits are missing after “{prefix}”", prefix = word.to_owned()))
         }
-        _ if one => (
-            "not-hex",
-            message!("“{text}” is not a hex digit: 0 to 9 and A to F are", text = word.to_owned()),
-        ),
+        _ if one => {
+            ("not-hex", message!("“{text}” is not a hex digit (0 to 9, A to F)", text = word.to_owned()))
+        }
         _ => (
             "not-hex",
             message!(

@@ -32,9 +32,9 @@ pub fn summary(report: &Report) -> String {
     }
     parts.push(match (summary.check_failed, summary.checked) {
         (0, 0) => "nothing to check".to_owned(),
-        (0, checked) if checked == summary.telegrams => "all checks right".to_owned(),
-        (0, checked) => format!("{checked} checked, all right"),
-        (failed, _) => format!("{} failed", count(failed, "check")),
+        (0, checked) if checked == summary.telegrams => "all checksums valid".to_owned(),
+        (0, checked) => format!("{checked} checked, all valid"),
+        (failed, _) => format!("{} wrong", count(failed, "checksum")),
     });
     if summary.lines_not_understood > 0 {
         parts.push(format!("{} without bytes", count(summary.lines_not_understood, "line")));
@@ -124,13 +124,13 @@ mod tests {
             Options::default(),
         ));
         assert!(
-            text.starts_with("2 telegrams, 1 answered, 1 check failed, 1 line without bytes.\n"),
+            text.starts_with("2 telegrams, 1 answered, 1 checksum wrong, 1 line without bytes.\n"),
             "{text}"
         );
         assert!(text.contains("\n1. Modbus RTU request: Ask unit 1"), "{text}");
         assert!(text.contains("\n2. Modbus RTU response to 1: "), "{text}");
         assert!(text.contains("\n   01                 Unit address"), "{text}");
-        assert!(text.contains("\n   Error: CRC does not match"), "{text}");
+        assert!(text.contains("\n   Error: CRC is wrong"), "{text}");
         assert!(text.contains("\nLine 3: no bytes found."), "{text}");
         assert!(text.lines().all(|line| !line.ends_with(' ')), "{text}");
     }

@@ -75,7 +75,7 @@ fn weigh(spec: &Spec, raw: u64, own: &[u8], at: usize, steps: &mut Vec<Message>)
         steps.push(message!("it holds {bits}", bits = bits_of_float(weight.trailing_zeros() / 8, width)));
     } else if width > 1 && spec.bits.is_empty() {
         steps.push(message!(
-            "it counts {byte} × {weight} = {share}, and all of them {raw}",
+            "it contributes {byte} × {weight} = {share} to the value {raw}",
             byte = own[at],
             weight = weight,
             share = share,
@@ -186,7 +186,7 @@ mod tests {
     fn a_byte_of_a_register_counts_by_its_place() {
         assert_eq!(
             said(PAIR, "", 5),
-            ["byte 1 of 2 of Register 201", "it counts 66 × 256 = 16896, and all of them 17142", "42F6h"]
+            ["byte 1 of 2 of Register 201", "it contributes 66 × 256 = 16896 to the value 17142", "42F6h"]
         );
     }
 

@@ -49,7 +49,7 @@ impl Detail {
     pub fn meaning(&self) -> Message {
         match self.verdict {
             Verdict::Right | Verdict::NoCheck => self.said.clone(),
-            Verdict::Wrong => message!("{said}, but the check does not match", said = self.said.clone()),
+            Verdict::Wrong => message!("{said}, but the checksum is wrong", said = self.said.clone()),
             Verdict::Unchecked => message!("the beginning of a telegram: too short to say what it means"),
         }
     }
@@ -363,7 +363,7 @@ impl Detail {
                 State::Asked => message!("job {job}: {said}", job = job, said = said),
                 State::Running => {
                     message!(
-                        "job {job} is still running, this is from before: {said}",
+                        "job {job} is still running; the slave still shows its previous state: {said}",
                         job = job,
                         said = said
                     )
@@ -426,12 +426,12 @@ impl Detail {
         let things = asked.as_ref().and_then(|asked| asked.device.sentence());
         self.said = match (things, asked.as_ref().is_some_and(|asked| asked.writes)) {
             (Some(things), false) => {
-                message!("{who} refuses to give {things}: {why}", who = who, things = things, why = why)
+                message!("{who} rejects reading {things}: {why}", who = who, things = things, why = why)
             }
             (Some(things), true) => {
-                message!("{who} refuses to write {things}: {why}", who = who, things = things, why = why)
+                message!("{who} rejects writing {things}: {why}", who = who, things = things, why = why)
             }
-            (None, _) => message!("{who} refuses: {why}", who = who, why = why),
+            (None, _) => message!("{who} rejects the request: {why}", who = who, why = why),
         };
         // What the manual had to say of the request is why.
         if let Some(problem) = asked.as_ref().and_then(|asked| asked.device.problems().next()) {
@@ -466,7 +466,7 @@ impl Detail {
                     message!("{who} answers: {things}", who = who, things = things)
                 }
                 (Direction::Response, true) => {
-                    message!("{who} confirms what it wrote: {things}", who = who, things = things)
+                    message!("{who} confirms the write: {things}", who = who, things = things)
                 }
             };
         }
@@ -529,7 +529,7 @@ fn channel_sentence(channel: &Channel, who: &Message, things: Option<Message>) -
             message!("{who} answers: {things}", who = who, things = things)
         }
         (Direction::Response, Service::Write) => {
-            message!("{who} confirms what it wrote: {things}", who = who, things = things)
+            message!("{who} confirms the write: {things}", who = who, things = things)
         }
         (_, Service::None | Service::Both) => plain,
     }

@@ -479,7 +479,11 @@ mod tests {
             answers[0].said.to_string(),
             "job 1 is done: the slave answers: Status word (Sy.51) = 0000h"
         );
-        assert!(answers[1].said.to_string().contains("refuses to read index 2033h"), "{}", answers[1].said);
+        assert!(
+            answers[1].said.to_string().contains("rejects the job to read index 2033h"),
+            "{}",
+            answers[1].said
+        );
     }
 
     /// Whatever is offered can be opened in at least one protocol, and what was made of it is read

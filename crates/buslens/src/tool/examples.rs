@@ -32,9 +32,9 @@ impl Group {
     pub const fn label(self) -> &'static str {
         match self {
             Self::Devices => "Devices",
-            Self::Transports => "Ways to carry telegrams",
+            Self::Transports => "Framing",
             Self::Functions => "Modbus functions",
-            Self::Broken => "Broken, to see what is said",
+            Self::Broken => "Faulty telegrams",
         }
     }
 }
@@ -279,7 +279,7 @@ pub static EXAMPLES: &[Example] = &[
     Example::new(
         Group::Functions,
         "refused",
-        "Refused: exceptions 2, 64 and 66",
+        "Rejected: exceptions 2, 64 and 66",
         "01 03 27 10 00 01 8F 7B\n01 83 02 C0 F1\n01 64 20 00 00 3E FA 12\n01 E4 40 6A F0\n\
                01 65 20 0A 00 01 04 00 00 00 05 38 1A\n01 E5 42 EA A1",
     ),
@@ -293,7 +293,7 @@ pub static EXAMPLES: &[Example] = &[
     Example::new(
         Group::Broken,
         "check_failed",
-        "A changed byte: the check fails",
+        "A changed byte: the CRC is wrong",
         "01 03 00 C8 00 03 84 35\n01 03 06 00 08 42 A4 F1 DE B0 F8",
     ),
     Example::new(
@@ -311,13 +311,13 @@ pub static EXAMPLES: &[Example] = &[
     Example::new(
         Group::Broken,
         "byte_count_wrong",
-        "Right check, wrong byte count",
+        "Valid CRC, wrong byte count",
         "01 03 05 00 80 42 A4 F1 DE 83 F8",
     ),
     Example::new(
         Group::Broken,
         "quantity_too_large",
-        "Right check, too many registers",
+        "Valid CRC, too many registers",
         "01 03 07 D0 00 7E C5 67",
     ),
     Example::new(Group::Broken, "bad_character", "A letter O in place of a zero", "01 03 O0 C8 00 03 84 35"),

@@ -7,7 +7,7 @@ use crate::frame::{Frame, Speaker, Verdict, modbus_rtu};
 use crate::message;
 use crate::walk;
 
-/// What may have happened to a telegram whose check does not match.
+/// Possible causes to a telegram whose check does not match.
 #[derive(Clone, Debug)]
 pub struct Explanation {
     pub hypothesis: Hypothesis,
@@ -29,7 +29,7 @@ impl Explanation {
         match (self.problems, self.known) {
             (0, true) => message!("byte count and length fit, and the device knows these registers"),
             (0, false) => message!("byte count and length fit"),
-            (problems, _) => message!("{n} would still be wrong", n = field::count(problems, "thing")),
+            (problems, _) => message!("{n} would remain", n = field::count(problems, "problem")),
         }
     }
 }
@@ -45,7 +45,7 @@ fn misprint(bytes: &[u8]) -> Option<Hypothesis> {
 }
 
 impl Report {
-    /// What may have happened to telegram `index`, best first: what leaves nothing wrong before what
+    /// Possible causes to telegram `index`, best first: what leaves nothing wrong before what
     /// does; then by how often such a thing happens and in how many ways it could have. Empty where
     /// the check is right, or where there is none.
     pub fn explanations(&self, index: usize) -> Vec<Explanation> {
@@ -97,7 +97,7 @@ impl Report {
         let length = telegram.line.bytes.len();
         if !telegram.choice.protocol.is(&modbus_rtu::PROTOCOL) {
             return Some(message!(
-                "a check of one byte is right by chance once in 256: it cannot be told which byte is wrong"
+                "a checksum of one byte is valid by chance once in 256: it cannot be told which byte is wrong"
             ));
         }
         let chance = chance_of_change(length);

@@ -61,7 +61,7 @@ pub struct Row {
     /// What a person noted on it.
     #[serde(skip_serializing_if = "str::is_empty")]
     pub comment: String,
-    /// What may have happened where the check failed, best first.
+    /// Possible causes where the check failed, best first.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub hypotheses: Vec<Hypothesis>,
     #[serde(skip_serializing_if = "Option::is_none")]

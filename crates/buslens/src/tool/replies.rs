@@ -9,7 +9,7 @@ use crate::profibus::{self, Body, KINDS, Kind, OTHER_KINDS, Refusal, Service};
 
 /// A response to a request.
 pub struct Reply {
-    /// "Exception 2, address not allowed".
+    /// "Exception 2, illegal data address".
     pub label: Message,
     pub frame: Box<dyn Frame>,
 }
@@ -80,5 +80,5 @@ fn service(kind: &Kind, body: &dyn Body, settings: &profibus::Settings) -> Vec<(
 }
 
 fn healthy() -> Message {
-    message!("a healthy device's response")
+    message!("the normal response")
 }

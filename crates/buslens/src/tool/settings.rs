@@ -60,7 +60,7 @@ pub fn write(settings: &Settings) -> String {
     let changed = changed(settings);
     if changed.is_empty() {
         // An empty file would look like one that could not be read.
-        return "# Everything is as delivered.\n".to_owned();
+        return "# Everything is at factory settings.\n".to_owned();
     }
     changed.into_iter().map(|(path, text)| format!("{path} = {text}\n")).collect()
 }
@@ -179,15 +179,15 @@ const fn in_use(key: &'static str, label: &'static str) -> Spec {
     Spec::new(key, label)
         .role(Role::Count)
         .names(&[Name { value: NOT_KNOWN as u64, label: "not known", note: "" }])
-        .note("MDB_MapNr_Rd and MDB_MapNr_Wr: entries behind them count for nothing; 2 as delivered.")
+        .note("MDB_MapNr_Rd and MDB_MapNr_Wr: entries behind them count for nothing; factory setting 2.")
         .source("KEB COMBIVERT F5 Modbus operator, 3")
 }
 
 static PROCESS_OUTPUT: Spec = Spec::new("process_output", "Process output data")
-    .note("What the words to the device carry; as delivered control word and set speed.")
+    .note("What the words to the device carry; factory setting: control word and set speed.")
     .source("KEB COMBIVERT F5 PROFIBUS-DP operator, 8.1");
 static PROCESS_INPUT: Spec = Spec::new("process_input", "Process input data")
-    .note("What the words from the device carry; as delivered status word and actual speed.")
+    .note("What the words from the device carry; factory setting: status word and actual speed.")
     .source("KEB COMBIVERT F5 PROFIBUS-DP operator, 8.1");
 static WORDS: Spec = Spec::new("words", "Words");
 static INDEX: Spec = Spec::new("index", "Index")

@@ -89,7 +89,7 @@ impl Reader<'_> {
         let label = Argument::Term(spec.label);
         let message = match found {
             0 => message!(
-                "{label} is missing: {bytes} more should follow here",
+                "{label} is missing: {bytes} more expected",
                 label = label,
                 bytes = Message::bytes(width)
             ),
@@ -193,7 +193,7 @@ impl Reader<'_> {
             field.problems.push(Problem::error(
                 "unexpected-bytes",
                 left,
-                message!("{bytes} more than the telegram should have", bytes = Message::bytes(left.len())),
+                message!("{bytes} too many", bytes = Message::bytes(left.len())),
             ));
             self.fields.push(field);
             self.wire.set(path, Deviation::Extra(left.of(self.bytes).to_vec()));
@@ -348,7 +348,7 @@ impl Walker for Reader<'_> {
         };
         if !check.ok() {
             let message = message!(
-                "{label} does not match: {found} found, {computed} computed from the bytes before it",
+                "{label} is wrong: {found} found, {computed} computed from the bytes before it",
                 label = Argument::Term(spec.label),
                 found = check.found_bytes(),
                 computed = check.computed_bytes()

@@ -304,7 +304,7 @@ fn the_story_tells_what_is_special() {
     let all = some.statistics();
     assert_eq!((all.exceptions, all.check_failed, all.broadcasts, all.unasked), (1, 1, 1, 1));
     let story: Vec<String> = some.story().iter().map(ToString::to_string).collect();
-    assert!(story[1].contains("1 exception; 1 failed check"), "{story:#?}");
+    assert!(story[1].contains("1 exception; 1 wrong checksum"), "{story:#?}");
     assert!(story.contains(&"1 response without a request".to_owned()), "{story:#?}");
     assert!(story.contains(&"1 request to all, which nobody answers".to_owned()), "{story:#?}");
 }

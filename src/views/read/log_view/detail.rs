@@ -187,7 +187,7 @@ fn Note() -> impl IntoView {
     };
     view! {
         <label class="own-note">
-            <span>"Your note; it goes into exports"</span>
+            <span>"Note (included in exports)"</span>
             <input
                 class="input"
                 autocomplete="off"

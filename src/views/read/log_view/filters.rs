@@ -135,7 +135,7 @@ fn FindingChip() -> impl IntoView {
         <Show when=move || log.finding.get().is_some()>
             <button type="button" class="chip finding-chip" on:click=move |_| log.leave_finding()>
                 <Icon glyph=Glyph::Close />
-                <span class="unseen">"Let go of the finding: "</span>
+                <span class="unseen">"Clear the finding:  "</span>
                 <span class="title">{title}</span>
             </button>
             <span class="steps">

@@ -68,7 +68,7 @@ fn said(unit: &Unit) -> String {
     if let Some(median) = unit.median {
         said += &format!(", usually after {}", duration(median.into()));
     }
-    for (n, noun) in [(unit.damaged, "damaged"), (unit.refused, "refused")] {
+    for (n, noun) in [(unit.damaged, "damaged"), (unit.refused, "rejected")] {
         if n > 0 {
             said += &format!(", {n} {noun}");
         }
@@ -120,7 +120,6 @@ fn Findings() -> impl IntoView {
             return view! { <ul class="findings none note">{sentences}</ul> }.into_any();
         }
         let findings = findings.into_iter().enumerate().map(finding).collect_view();
-        view! { <ol class="findings" aria-label="What is wrong, as far as the log tells">{findings}</ol> }
-            .into_any()
+        view! { <ol class="findings" aria-label="What the log shows to be wrong">{findings}</ol> }.into_any()
     }
 }

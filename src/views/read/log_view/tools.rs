@@ -35,7 +35,7 @@ pub fn Tools() -> impl IntoView {
             <MenuItem on_choose=open(units, None)>"Units and functions"</MenuItem>
             <MenuItem on_choose=open(series, None)>"A register over time"</MenuItem>
             <MenuItem on_choose=open(unread, Some(Request::Unread))>
-                {move || format!("Lines without bytes ({})", lines())}
+                {move || format!("Unread lines ({})", lines())}
             </MenuItem>
             <MenuItem on_choose=open(reading, Some(Request::Sample))>"How it is read"</MenuItem>
         </Menu>
@@ -45,7 +45,7 @@ pub fn Tools() -> impl IntoView {
         <Dialog open=series title="A register over time">
             <Series open=series />
         </Dialog>
-        <Dialog open=unread title="Lines without bytes">
+        <Dialog open=unread title="Unread lines">
             <UnreadLines />
         </Dialog>
         <Dialog open=reading title="How the log is read">
@@ -280,8 +280,8 @@ fn Reading() -> impl IntoView {
     let parts = [
         (Part::Bytes, "These are the bytes"),
         (Part::Time, "This is the time"),
-        (Part::Request, "This says request"),
-        (Part::Response, "This says response"),
+        (Part::Request, "This marks a request"),
+        (Part::Response, "This marks a response"),
     ];
     let buttons = parts.map(|(part, label)| {
         view! {
@@ -295,14 +295,14 @@ fn Reading() -> impl IntoView {
             <ReadingChoices />
             <Choose
                 label="File"
-                otherwise="As its beginning tells"
+                otherwise="Detect automatically"
                 options=inputs
                 value=Signal::derive(move || read.choices().input)
                 on_choose=Callback::new(move |key| read.read_as(|choices| choices.input = key))
             />
             <Choose
                 label="Numbers"
-                otherwise="As the lines tell"
+                otherwise="Detect automatically"
                 options=numbers
                 value=Signal::derive(move || decimal().to_owned())
                 on_choose=Callback::new(move |key: String| {
@@ -310,7 +310,7 @@ fn Reading() -> impl IntoView {
                 })
             />
         </div>
-        <h3>"Are lines read wrongly?"</h3>
+        <h3>"Lines read incorrectly?"</h3>
         <p class="note">"Select a part of this line, and say what it is. All lines are then read like that."</p>
         <input
             node_ref=field

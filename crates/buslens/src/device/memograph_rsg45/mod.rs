@@ -108,7 +108,7 @@ static WRITTEN_STATUS: Spec = Spec::new("status", "Status")
             .ranges(WORTHS),
         Bits::reserved(8, 8),
     ])
-    .note("What the value is worth. The device watches its limits itself: the high byte should be 0.")
+    .note("Quality of the value. The device watches its limits itself: the high byte should be 0.")
     .source("Memograph M RSG45 Modbus supplement, 2.6.14");
 
 /// What codes without a name of their own are worth.

@@ -52,7 +52,7 @@ impl Text {
         if text.iter().any(|byte| !(b' '..=b'~').contains(byte)) {
             let label = Argument::Term(self.spec.label);
             let message =
-                message!("{label} holds bytes that are no ASCII characters: 20h to 7Eh are", label = label);
+                message!("{label} contains non-ASCII characters; allowed are 20h to 7Eh", label = label);
             say("not-ascii", message);
         } else if let (false, Ok(text)) = (text.is_empty(), std::str::from_utf8(text)) {
             (self.rule)(text, say);

@@ -1,4 +1,4 @@
-//! What may have happened to a telegram whose check does not match.
+//! Possible causes to a telegram whose check does not match.
 //!
 //! Every usual cause is tried; what makes the check right is a [`Hypothesis`]. On how many tries that is
 //! found tells how likely it is to be found by chance, so that nobody takes a guess for the truth.
@@ -25,7 +25,7 @@ use crate::field::{Argument, Message, Span, hex, hex_value};
 use crate::frame::{Protocol, modbus_ascii, modbus_rtu, profibus_fdl};
 use crate::message;
 
-/// What may have happened to a telegram.
+/// Possible causes to a telegram.
 #[derive(Clone, Debug)]
 pub struct Hypothesis {
     pub cause: Cause,
@@ -173,30 +173,33 @@ impl Hypothesis {
         let byte = |bytes: &[u8]| bytes.get(at).map_or(String::new(), |byte| hex_value((*byte).into(), 1));
         let (was, is) = (byte(found), byte(&self.bytes));
         match self.cause {
-            Cause::CheckSwapped => message!("the two bytes of the check are swapped"),
+            Cause::CheckSwapped => message!("the two bytes of the checksum are swapped"),
             Cause::CheckDigit => {
-                message!("one digit of the check is wrong: it would be {check}", check = self.check_text())
+                message!(
+                    "one digit of the checksum is wrong: it should be {check}",
+                    check = self.check_text()
+                )
             }
             Cause::CheckWrong => {
                 message!(
-                    "the bytes are as they should be; the check would be {check}",
+                    "the bytes are right and only the checksum is wrong: it should be {check}",
                     check = self.check_text()
                 )
             }
             Cause::CheckMissing => {
-                message!("the check is missing: it would be {check}", check = self.check_text())
+                message!("the checksum is missing: it should be {check}", check = self.check_text())
             }
             Cause::CheckWithoutAddress => message!(
-                "the check is that of the bytes behind the address; over all of them it would be {check}",
+                "the checksum leaves out the address; over all bytes it should be {check}",
                 check = self.check_text()
             ),
             Cause::CheckOfOtherKind(kind) => message!(
-                "the check is of another kind, {kind}; of Modbus RTU it would be {check}",
+                "the checksum is of another kind, {kind}; for Modbus RTU it should be {check}",
                 kind = kind.to_owned(),
                 check = self.check_text()
             ),
             Cause::CheckCopied => message!(
-                "the check stands in another telegram, too: it was copied, and would be {check}",
+                "the checksum is that of another telegram: it was copied, and should be {check}",
                 check = self.check_text()
             ),
             Cause::BitFlipped => {
@@ -221,7 +224,7 @@ impl Hypothesis {
             Cause::RegisterExtra => message!("bytes {at} and {next} are too much", at = at, next = at + 1),
             Cause::ByteMissing => message!("a byte {is} is missing before byte {at}", is = is, at = at),
             Cause::RegisterMissing => message!(
-                "two bytes are missing before byte {at}; any two fit the check, {bytes} would make sense",
+                "two bytes are missing before byte {at}; any two fit the checksum, {bytes} would make sense",
                 at = at,
                 bytes = hex(self.bytes.get(at..at + 2).unwrap_or_default())
             ),
@@ -232,7 +235,7 @@ impl Hypothesis {
             ),
             Cause::LineTurn => {
                 message!(
-                    "00 or FF of the line turning round is taken for a part of it, at byte {at}",
+                    "00 or FF from the line changing direction was taken as part of it, at byte {at}",
                     at = at
                 )
             }

@@ -126,11 +126,7 @@ const OPAQUE_UNKNOWN: Carried = Carried {
     new: || {
         Box::new(Opaque {
             meaning: |who, bytes| {
-                message!(
-                    "{who}: an interface that Buslens does not know, with {bytes} of data",
-                    who = who,
-                    bytes = bytes
-                )
+                message!("{who}: unknown MEI type, with {bytes} of data", who = who, bytes = bytes)
             },
             data: Vec::new(),
         })

@@ -66,10 +66,10 @@ impl Wanted {
         match self {
             Self::All => "everything",
             Self::Errors => "all errors",
-            Self::CheckFailed => "failed checks",
+            Self::CheckFailed => "wrong checksums",
             Self::Unanswered => "unanswered requests",
             Self::Exceptions => "exceptions",
-            Self::Odd => "retries, echoes, late or unasked answers",
+            Self::Odd => "retries, echoes, late or unexpected responses",
             Self::Discarded => "discarded bytes",
         }
     }

@@ -103,9 +103,13 @@ impl Log {
         let (what, advice) = advice(cause);
         let of = match sample.len() < wrong.len() {
             true => {
-                format!("{} looked at ({} in all)", many(sample.len(), "failed check"), grouped(wrong.len()))
+                format!(
+                    "{} looked at ({} in all)",
+                    many(sample.len(), "wrong checksum"),
+                    grouped(wrong.len())
+                )
             }
-            false => many(sample.len(), "failed check"),
+            false => many(sample.len(), "wrong checksum"),
         };
         Some(Finding {
             code: cause.key(),
@@ -175,7 +179,7 @@ impl Log {
         let of_dialog = |(dialog, evidence): (&&Dialog, Vec<u32>)| Finding {
             code: "always-refused",
             text: message!(
-                "Unit {unit} refuses function {function}, {n} of {of}: does the device know it, and these addresses?",
+                "Unit {unit} rejects function {function}, {n} of {of}: does the device know it, and these addresses?",
                 unit = dialog.unit.unwrap_or_default(),
                 function = dialog.function,
                 n = grouped(dialog.exceptions),
@@ -185,7 +189,7 @@ impl Log {
         };
         let mut findings: Vec<Finding> = refused.iter().zip(evidence).map(of_dialog).collect();
         shorten(&mut findings, |n| {
-            message!("{n} more are always refused by their units", n = many(n, "function"))
+            message!("{n} more are always rejected by their units", n = many(n, "function"))
         });
         findings
     }
@@ -219,7 +223,7 @@ impl Log {
         (late >= FEWEST).then(|| Finding {
             code: "too-late",
             text: message!(
-                "{n} came when the client had gone on: let it wait longer for answers",
+                "{n} arrived after the client had given up: increase its timeout",
                 n = many(late, "response")
             ),
             evidence: self.indices(|entry| entry.role == Role::Late),
@@ -249,7 +253,7 @@ impl Log {
         (hasty.len() >= FEWEST).then(|| Finding {
             code: "two-clients",
             text: message!(
-                "{n} came before the one before could be answered: are there two clients (masters) on the line?",
+                "{n} sent before the previous one could be answered: are there two clients (masters) on the line?",
                 n = many(hasty.len(), "request")
             ),
             evidence: hasty.into_iter().take(EVIDENCE).collect(),
@@ -294,34 +298,36 @@ fn shorten(findings: &mut Vec<Finding>, more: impl FnOnce(usize) -> Message) {
 fn advice(cause: Cause) -> (&'static str, &'static str) {
     match cause {
         Cause::FlowControl => (
-            "bytes 11h or 13h are missing",
+            "bytes 11h and 13h are being removed",
             "Switch off software flow control (XON/XOFF) on the converter or port",
         ),
         Cause::CheckSwapped => {
-            ("the two bytes of the check are swapped", "The low byte goes first in Modbus RTU")
+            ("the two bytes of the checksum are swapped", "The low byte goes first in Modbus RTU")
         }
         Cause::CheckMissing => {
-            ("the check is missing", "The program that wrote the log left it out, or the sender does")
+            ("the checksum is missing", "Either the logging program or the sender leaves it out")
         }
         Cause::CheckWithoutAddress => {
-            ("the check leaves out the address", "It is over all bytes, the address first")
+            ("the checksum leaves out the address", "It covers all bytes, from the address on")
         }
         Cause::CheckOfOtherKind(_) => (
-            "the check is of another kind",
+            "the checksum is of another kind",
             "Modbus RTU takes CRC-16 with polynomial 8005h reflected and start FFFFh",
         ),
-        Cause::CheckCopied => ("the check is that of another telegram", "Work it out for each telegram anew"),
+        Cause::CheckCopied => {
+            ("the checksum is that of another telegram", "Recalculate it for every telegram")
+        }
         Cause::LineTurn => (
             "there are 00 or FF around the telegram",
-            "The line floats when it turns round: add bias resistors, or set the converter's turn-around time",
+            "The line floats when the direction changes: add bias resistors, or set the converter's turnaround time",
         ),
         Cause::EchoInFront | Cause::Joined => (
             "two telegrams are in one",
             "Switch off the echo of the converter, or let the program that logs part them at pauses",
         ),
         Cause::BitFlipped | Cause::ByteChanged => (
-            "single bits or bytes are changed",
-            "Look at shield, ground, terminating resistors and the distance to power cables",
+            "single bits or bytes were changed",
+            "Check shield, ground, terminating resistors and the distance to power cables",
         ),
         Cause::ByteMissing | Cause::Cut => (
             "a byte is missing",
@@ -329,7 +335,7 @@ fn advice(cause: Cause) -> (&'static str, &'static str) {
         ),
         Cause::ByteDoubled | Cause::ByteExtra | Cause::LeadingBytes | Cause::TrailingBytes => (
             "there are bytes too many",
-            "Two may speak at a time, or the direction of the converter is switched too early",
+            "Two devices may be transmitting at once, or the converter switches its direction too early",
         ),
         Cause::WordsSwapped => {
             ("the bytes of each word are swapped", "The high byte of a register goes first")

@@ -72,8 +72,8 @@ impl State {
             Self::Retry => "retry",
             Self::Slow => "slow",
             Self::Late => "late",
-            Self::Unasked => "unasked",
-            Self::Refused => "refused",
+            Self::Unasked => "unexpected",
+            Self::Refused => "rejected",
             Self::Unanswered => "unanswered",
             Self::Cut => "cut short",
             Self::Damaged => "damaged",
@@ -157,7 +157,7 @@ pub struct Overview {
     /// Rows that a person should look at.
     pub wrong: usize,
     pub lines: usize,
-    /// Lines without bytes.
+    /// Unread lines.
     pub unread: usize,
     /// The first and the last time.
     pub times: Option<(i64, i64)>,
@@ -358,10 +358,10 @@ pub fn brief(said: &Message) -> String {
     let mut brief = match rest {
         Some(rest) => {
             let endings = [
-                ("confirms what it wrote: ", "written: "),
+                ("confirms the write: ", "written: "),
                 ("answers: ", ""),
                 ("answers with ", ""),
-                ("refuses: ", ""),
+                ("rejects the request: ", ""),
             ];
             let short = endings.iter().find_map(|(long, short)| Some((short, rest.strip_prefix(long)?)));
             short.map_or_else(|| rest.to_owned(), |(short, rest)| format!("{short}{rest}"))
@@ -409,7 +409,7 @@ fn headline(telegrams: usize, damaged: usize, units: &[Unit]) -> String {
         clauses.push(format!("{} damaged", many(damaged, "telegram")));
     }
     if refused > 0 {
-        clauses.push(format!("{} refused", many(refused, "request")));
+        clauses.push(format!("{} rejected", many(refused, "request")));
     }
     let mut text = clauses.join("; ") + ".";
     if let Some(first) = text.get_mut(..1) {
@@ -432,10 +432,10 @@ mod tests {
             (message!("ask {who} for {things}", who = who(), things = things()), "Read 200 = 5"),
             (message!("write to {who}: {things}", who = who(), things = things()), "Write 200 = 5"),
             (
-                message!("{who} confirms what it wrote: {things}", who = who(), things = things()),
+                message!("{who} confirms the write: {things}", who = who(), things = things()),
                 "Written: 200 = 5",
             ),
-            (message!("{who} refuses: {things}", who = who(), things = things()), "200 = 5"),
+            (message!("{who} rejects the request: {things}", who = who(), things = things()), "200 = 5"),
             (message!("nothing of that"), "Nothing of that"),
         ] {
             assert_eq!(brief(&said), expected);

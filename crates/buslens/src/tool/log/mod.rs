@@ -106,7 +106,7 @@ pub struct Log {
     choice: Choice,
     input: Way,
     traffic: Traffic,
-    /// Lines without bytes: number and place.
+    /// Unread lines: number and place.
     unread: Vec<(u32, u32)>,
     /// Its lines hold nothing but what should be telegrams.
     typed: bool,
@@ -391,7 +391,7 @@ impl Log {
         self.traffic.bytes(entry)
     }
 
-    /// Lines without bytes: number and place in the file.
+    /// Unread lines: number and place in the file.
     pub fn unread(&self) -> &[(u32, u32)] {
         &self.unread
     }

@@ -217,9 +217,9 @@ impl Log {
         }
         others.retain(|(other, _)| !other.is(protocol));
         let reason = if protocol.is(&modbus_unchecked::PROTOCOL) {
-            message!("unit, function and length fit a telegram whose check was not printed")
+            message!("unit, function and length fit a telegram whose checksum was not printed")
         } else if protocol.is(self.choice.protocol) {
-            message!("the others are of this protocol, and nothing fits better")
+            message!("its neighbours are of this protocol, and nothing fits better")
         } else {
             message!("function code and length fit, and so does its place in the text")
         };
@@ -260,7 +260,7 @@ impl Log {
         {
             let reason = match direction {
                 Direction::Response => message!("its byte count says that it is the beginning of a response"),
-                Direction::Request => message!("a check is added to what is sent"),
+                Direction::Request => message!("a checksum is added to what is sent"),
             };
             return guess(Certainty::Likely, reason);
         }

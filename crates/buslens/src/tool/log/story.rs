@@ -34,7 +34,7 @@ impl Log {
         story.extend(units.iter().take(MOST_UNITS).map(|unit| self.of_unit(unit)));
         if spoken > MOST_UNITS {
             let more = spoken - MOST_UNITS;
-            story.push(message!("{n} more, see the table", n = many(more, "unit")));
+            story.push(message!("{n} more in the table", n = many(more, "unit")));
         }
         story.extend(self.remarks());
         story
@@ -120,10 +120,11 @@ impl Log {
             let requests = many(unit.requests, "request");
             parts.push(match unit.answered {
                 answered if answered == unit.requests && answered > 1 => format!("answered all {requests}"),
+                0 if unit.requests > 1 => format!("answered none of {requests}"),
                 answered => format!("answered {} of {requests}", grouped(answered)),
             });
         } else {
-            parts.push(format!("sent or got {}", many(unit.telegrams, "telegram")));
+            parts.push(format!("appears in {}", many(unit.telegrams, "telegram")));
         }
         if unit.unanswered > 0 {
             parts.push(match unit.silent {
@@ -136,7 +137,7 @@ impl Log {
                 None => format!("{} unanswered", grouped(unit.unanswered)),
             });
         }
-        for (n, noun) in [(unit.exceptions, "exception"), (unit.check_failed, "failed check")] {
+        for (n, noun) in [(unit.exceptions, "exception"), (unit.check_failed, "wrong checksum")] {
             if n > 0 {
                 parts.push(many(n, noun));
             }
