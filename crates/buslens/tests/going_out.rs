@@ -169,7 +169,7 @@ fn the_same_is_replaced_by_the_same() {
 #[test]
 fn bytes_are_replaced_as_they_are_written() {
     for (line, passed) in [
-        ("05 83 02 81 30", "01 83 02 c0 f1"),
+        ("05 03 00 c8 00 03 85 b1", "01 03 00 c8 00 03 84 35"),
         ("0x05, 0x83, 0x02, 0x81, 0x30", "0x01, 0x83, 0x02, 0xC0, 0xF1"),
         ("[05][83][02][81][30]", "[01][83][02][C0][F1]"),
         ("0583028130", "018302C0F1"),

@@ -141,7 +141,7 @@ fn cause(report: &Report, index: usize, telegram: &Telegram) -> Option<String> {
     }
     let best = report.explanations(index).into_iter().next()?;
     let cause = best.hypothesis.text(&telegram.line.bytes).sentence();
-    Some(format!("Perhaps: {cause}. It would then say: {}.", best.said))
+    Some(format!("Possible cause: {cause}. Corrected: {}.", best.said))
 }
 
 impl Report {
@@ -338,7 +338,7 @@ impl Party {
         "Answered",
         "Unanswered",
         "Damaged",
-        "Exceptions",
+        "Rejected",
         "Usual time",
         "Longest time",
     ];
@@ -370,13 +370,10 @@ impl Party {
             _ if answered == requests && requests > 1 => format!("{}, all answered", many(requests, "request")),
             _ => format!("{}, {} answered", many(requests, "request"), grouped(answered)),
         }];
-        for (n, word) in [(unanswered, "unanswered"), (damaged, "damaged")] {
+        for (n, word) in [(unanswered, "unanswered"), (damaged, "damaged"), (refused, "rejected")] {
             if n > 0 {
                 parts.push(format!("{} {word}", grouped(n)));
             }
-        }
-        if refused > 0 {
-            parts.push(many(refused, "exception"));
         }
         if let (Some(median), Some(worst)) = (median, worst) {
             parts.push(format!("usually after {}, at most {}", milliseconds(median), milliseconds(worst)));
@@ -441,7 +438,7 @@ mod tests {
         assert_eq!((digest.telegrams.len(), digest.of), (1, 1));
         let text = digest.text(true);
         assert!(text.starts_with("1 telegram, Modbus RTU, "), "{text}");
-        assert!(text.contains("[damaged]") && text.contains("Perhaps: "), "{text}");
+        assert!(text.contains("[damaged]") && text.contains("Possible cause: "), "{text}");
         assert!(text.contains("01 03 06 00 08 42 A4 F1 DE B0 F8") && text.contains("Byte count"), "{text}");
     }
 
