@@ -73,10 +73,15 @@ impl Log {
         }
         let of = groups.len();
         let mut chosen: Vec<(u32, usize)> = Vec::new();
-        let shown = findings.iter().filter_map(|finding| finding.evidence.first());
+        // What is not wrong by itself shows something by what it became.
+        let is_wrong = |index: &&u32| {
+            entries.get(**index as usize).is_some_and(|entry| self.state(entry).is_wrong())
+        };
+        let shown = findings.iter().filter_map(|finding| {
+            finding.evidence.iter().find(is_wrong).or(finding.evidence.last())
+        });
         for index in shown {
             let event = entries.get(*index as usize).and_then(|entry| self.event(entry));
-            // What is not wrong by itself shows something all the same: a value, say.
             let group = event.and_then(|event| groups.remove(&event)).unwrap_or((*index, 1));
             if chosen.len() < MOST && chosen.iter().all(|(other, _)| *other != group.0) {
                 chosen.push(group);

@@ -270,6 +270,14 @@ fn whole(places: &[Span]) -> Vec<Span> {
 /// hex is written there.
 fn written(text: &[u8], old: u8, new: u8, lower: bool) -> Option<Vec<u8>> {
     let text = str::from_utf8(text).ok()?;
+    // "0x05", "\x05", "05h".
+    let bare = text.trim_start_matches("0x").trim_start_matches("0X").trim_start_matches(r"\x");
+    let bare = if bare.len() > 2 { bare.trim_end_matches(['h', 'H']) } else { bare };
+    if bare.len() < text.len() && !bare.is_empty() {
+        let (before, after) = text.split_once(bare)?;
+        let digits = written(bare.as_bytes(), old, new, lower)?;
+        return Some([before.as_bytes(), &digits, after.as_bytes()].concat());
+    }
     let hex = |width: usize| if lower { format!("{new:0width$x}") } else { format!("{new:0width$X}") };
     let is = |radix| u8::from_str_radix(text, radix) == Ok(old);
     let width = text.len();
@@ -782,14 +790,9 @@ fn named_units(part: &[u8]) -> Vec<(Span, u8)> {
 
 /// A number of a unit as it is written there.
 fn written_number(text: &[u8], old: u8, new: u8) -> Option<Vec<u8>> {
-    match text.strip_prefix(b"0x").or(text.strip_prefix(b"0X")) {
-        Some(hex) => {
-            let lower = hex.iter().any(u8::is_ascii_lowercase);
-            Some([&text[..2], &written(hex, old, new, lower)?].concat())
-        }
-        None => {
-            let width = if text.starts_with(b"0") { text.len() } else { 0 };
-            Some(format!("{new:0width$}").into_bytes())
-        }
+    if text.starts_with(b"0x") || text.starts_with(b"0X") {
+        return written(text, old, new, text[2..].iter().any(u8::is_ascii_lowercase));
     }
+    let width = if text.starts_with(b"0") { text.len() } else { 0 };
+    Some(format!("{new:0width$}").into_bytes())
 }
