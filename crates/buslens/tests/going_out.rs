@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use buslens::tool::log::{CaptureFile, Hidden, Kind, Log, Reading, Redacted};
+use buslens::tool::log::{CaptureFile, Hidden, Kind, Log, Reading, Redacted, Replaced};
 use buslens::tool::{Options, Profile, csv};
 
 fn folder() -> PathBuf {
@@ -159,7 +159,7 @@ fn the_same_is_replaced_by_the_same() {
         .map(|byte| u8::from_str_radix(byte, 16).unwrap())
         .collect();
     assert!(lines[2].ends_with(str::from_utf8(&bytes).unwrap()), "{said}");
-    let list = passed.list();
+    let list: String = passed.replaced.iter().map(Replaced::line).collect();
     assert!(list.contains("unit\t5\t1\t4\n") && list.contains("network address\t10.1.2.3\t"), "{list}");
     // Nothing that nobody asked to hide.
     let none = redacted(file, &Hidden::default());

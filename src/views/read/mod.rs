@@ -22,11 +22,10 @@ use examples::Examples;
 use open_file::OpenFile;
 use reading::{ProposedDevice, ReadAs, ReadingChoices};
 use start::Start;
-use state::Mode;
 use telegrams::Telegrams;
 
 pub use log_view::LogView;
-pub use state::ReadState;
+pub use state::{Mode, ReadState};
 
 #[component]
 pub fn Read() -> impl IntoView {

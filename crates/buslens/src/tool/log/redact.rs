@@ -8,6 +8,9 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 
+#[cfg(feature = "json")]
+use serde::{Deserialize, Serialize};
+
 use super::{Entry, Format, Log, Role, Source, Way};
 use crate::capture::{About, Writer};
 use crate::field::{self, Direction, Field, Role as Means, Span, Value};
@@ -18,6 +21,7 @@ use crate::walk::Algorithm;
 
 /// What is to be hidden.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "json", derive(Serialize, Deserialize))]
 pub struct Hidden {
     /// Units and stations, in telegrams and behind words such as "unit" or "slave".
     pub units: bool,
@@ -45,6 +49,7 @@ pub struct Redacted {
 
 /// Something that was replaced.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "json", derive(Serialize, Deserialize))]
 pub struct Replaced {
     pub kind: Kind,
     pub from: String,
@@ -55,6 +60,7 @@ pub struct Replaced {
 
 /// What is hidden.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "json", derive(Serialize, Deserialize))]
 pub enum Kind {
     Unit,
     Address,
@@ -73,13 +79,10 @@ impl Kind {
     }
 }
 
-impl Redacted {
-    /// The list of what was replaced, a line each.
-    pub fn list(&self) -> String {
-        self.replaced
-            .iter()
-            .map(|it| format!("{}\t{}\t{}\t{}\n", it.kind.label(), it.from, it.to, it.times))
-            .collect()
+impl Replaced {
+    /// A line of a list of them: what it is, what it was, what it is now, how often.
+    pub fn line(&self) -> String {
+        format!("{}\t{}\t{}\t{}\n", self.kind.label(), self.from, self.to, self.times)
     }
 }
 
