@@ -164,7 +164,7 @@ impl Report {
             }
         }
         let protocol = self.telegrams.first().map(|telegram| telegram.choice.protocol.label);
-        let device = self.options.device.map(|device| device.label);
+        let device = self.device(0).map(|device| device.label);
         let facts = [Some(count(all, "telegram")), protocol.map(str::to_owned), device.map(str::to_owned)];
         let headline = match (all, self.detail(0)) {
             (1, Some(detail)) => detail.meaning().sentence() + ".",
@@ -428,7 +428,6 @@ fn escaped(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::tool::{Options, Profile, decode};
 
     #[test]

@@ -36,7 +36,7 @@ pub use crate::walk::form::{Content, Entry, Misfit, parse_value};
 pub use crate::walk::guide::{Row, Size};
 pub use blocks::{BlockReading, blocks};
 pub use build::build;
-pub use decode::{Options, Report, Settings, Summary, Telegram};
+pub use decode::{Options, Report, Settings, Summary, Telegram, UnitDevice};
 pub use detail::Detail;
 pub use editor::{Answer, Editor};
 pub use entries::{Change, Entries};

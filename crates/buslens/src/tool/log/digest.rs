@@ -11,12 +11,12 @@ impl Log {
     pub fn digest(&self, source: &dyn Source, findings: &[Finding]) -> Digest {
         let overview = self.overview();
         let (chosen, of) = self.that_matter(findings);
-        let device = self.options().device.map_or("", |device| device.label);
         let several = overview.ports.len() > 1;
         let units = overview.units.into_iter().map(|unit| {
             let name = unit.unit.map_or("The line".to_owned(), |unit| format!("Unit {unit}"));
             let port = self.port_name(unit.port).filter(|_| several);
             let name = port.map_or(name.clone(), |port| format!("{name} on {port}"));
+            let device = self.options().device_of(unit.unit).map_or("", |device| device.label);
             Party { name, device: device.to_owned(), unit }
         });
         let finding = |finding: &Finding| digest::Finding {

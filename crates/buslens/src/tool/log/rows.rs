@@ -154,15 +154,18 @@ impl Log {
 
     /// Finds the writes that set up what others mean, for the device that is chosen.
     pub(super) fn find_lessons(&mut self) {
-        let Some(profile) = self.options.device else {
+        if self.options.devices().next().is_none() {
             self.teaching.clear();
             return;
-        };
+        }
         let teaches = |entry: &Entry| {
             matches!(entry.function, 6 | 16 | 100 | 101)
                 && entry.direction == Direction::Request
                 && self.registers(entry).is_some_and(|(start, count)| {
-                    (start..=start.saturating_add(count)).any(|address| profile.teaches(address))
+                    let device = self.options.device_of(entry.unit);
+                    device.is_some_and(|device| {
+                        (start..=start.saturating_add(count)).any(|address| device.teaches(address))
+                    })
                 })
         };
         let entries = self.entries().iter().enumerate();
