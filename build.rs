@@ -1,4 +1,4 @@
-//! Tells the linker to keep what the bundler needs to split the page's module: see src/views/later.rs.
+//! Tells the linker to keep what the bundler needs to split the page's module: see src/later.rs.
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");

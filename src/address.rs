@@ -82,6 +82,31 @@ pub fn href(view: View, link: &Link) -> String {
     }
 }
 
+/// Why there is no link to what is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoLink {
+    /// Nothing is shown.
+    Nothing,
+    /// A file is open, which is on this machine only.
+    File,
+    TooLong,
+}
+
+impl NoLink {
+    pub const fn sentence(self) -> &'static str {
+        match self {
+            Self::Nothing => "There is nothing to link to yet.",
+            Self::File => {
+                "A link cannot hold a file: send the file itself, or save a part of it as text and paste that."
+            }
+            Self::TooLong => {
+                "This is too long for a link, even compressed: mail programs and chats cut links of more than 30,000 \
+                 characters. Send it as a file."
+            }
+        }
+    }
+}
+
 /// Who knows what the views show.
 pub trait Shows {
     /// What `view` shows at this moment.
@@ -156,16 +181,20 @@ impl Address {
     }
 
     /// The whole address of what is shown, where it fits into a link.
-    pub async fn link(&self) -> Option<String> {
+    pub async fn link(&self) -> Result<String, NoLink> {
         let view = self.view.get_untracked();
-        let link = self.shows()?.link(view);
+        let link = self.shows().ok_or(NoLink::Nothing)?.link(view);
         if link.entries.iter().any(|(path, _)| path == FILE) {
-            return None;
+            return Err(NoLink::File);
         }
-        let address = window().location().href().ok()?;
+        let content = written(&link);
+        if content.is_empty() {
+            return Err(NoLink::Nothing);
+        }
+        let address = window().location().href().unwrap_or_default();
         let address = address.split('#').next().unwrap_or_default().to_owned();
-        let content = packed(written(&link)).await?;
-        Some(format!("{address}#/{}?{content}", view.key()))
+        let content = packed(content).await.ok_or(NoLink::TooLong)?;
+        Ok(format!("{address}#/{}?{content}", view.key()))
     }
 
     /// Brings back what the address says, or what was shown at the last visit. From now on the address

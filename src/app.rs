@@ -10,10 +10,8 @@ use crate::address::{Address, Shows, View};
 use crate::browser::typing::is_typed_into;
 use crate::components::header::Header;
 use crate::components::toast::{ToastList, Toasts};
-use crate::views::build::BuildState;
-use crate::views::check::CheckState;
+use crate::later::{Later, LaterView, Part};
 use crate::views::devices::{Borrowed, DeviceSettings};
-use crate::views::later::{LaterView, LaterViews};
 use crate::views::read::{Read, ReadState};
 use crate::views::sheet::SheetState;
 use buslens::tool::link::Link;
@@ -26,20 +24,25 @@ pub fn App() -> impl IntoView {
     provide_context(toasts);
     let devices = DeviceSettings::new();
     provide_context(devices);
-    let read = ReadState::new();
-    let build = BuildState::new();
-    let check = CheckState::new();
-    provide_context(read);
-    provide_context(build);
-    provide_context(check);
-    provide_context(SheetState::new());
-    let later = LaterViews::new();
+    let later = Later::new();
     provide_context(later);
+    let read = ReadState::new();
+    provide_context(read);
+    provide_context(SheetState::new());
     // Whoever looks at what there is has time for the rest to come.
-    set_timeout(move || later.load(), Duration::from_millis(1500));
-    address.keep(Rc::new(States { read, build, check, devices, toasts }));
+    let load_all = move || [Part::Log, Part::Views].into_iter().for_each(|part| later.load(part));
+    set_timeout(load_all, Duration::from_millis(1500));
+    address.keep(Rc::new(States { read, devices, later, toasts }));
 
-    Effect::new(move |_| document().set_title(&format!("{} - Buslens", address.view().label())));
+    Effect::new(move |_| {
+        let view = address.view();
+        let about = match view {
+            View::Read | View::Sheet => read.title(),
+            View::Build | View::Check | View::Devices => None,
+        };
+        let about = about.map_or(String::new(), |about| format!(": {about}"));
+        document().set_title(&format!("{}{about} - Buslens", view.label()));
+    });
     let main = NodeRef::<leptos::html::Main>::new();
     // The address holds the view, and so no place in the page.
     let skip = move |event: MouseEvent| {
@@ -60,12 +63,13 @@ pub fn App() -> impl IntoView {
             return;
         };
         event.prevent_default();
+        if address.view_now() == View::Devices {
+            // It takes files of settings, and listens itself.
+            return;
+        }
         let folder = data.items().get(0).and_then(|item| item.webkit_get_as_entry().ok().flatten());
         if folder.is_some_and(|entry| entry.is_directory()) {
             return toasts.say(format!("{} is a folder: open a file in it.", file.name()));
-        }
-        if address.view_now() == View::Devices {
-            return devices.open(file);
         }
         read.open(file);
         if address.view_now() != View::Read {
@@ -74,10 +78,7 @@ pub fn App() -> impl IntoView {
     };
     let view = move || match address.view() {
         View::Read => view! { <Read /> }.into_any(),
-        View::Build => view! { <LaterView which=|later| later.build /> }.into_any(),
-        View::Check => view! { <LaterView which=|later| later.check /> }.into_any(),
-        View::Devices => view! { <LaterView which=|later| later.devices /> }.into_any(),
-        View::Sheet => view! { <LaterView which=|later| later.sheet /> }.into_any(),
+        view => view! { <LaterView part=Part::Views view /> }.into_any(),
     };
     view! {
         <div class="app" on:dragover=|event| event.prevent_default() on:drop=dropped>
@@ -97,9 +98,8 @@ pub fn App() -> impl IntoView {
 /// What the views show.
 struct States {
     read: ReadState,
-    build: BuildState,
-    check: CheckState,
     devices: DeviceSettings,
+    later: Later,
     toasts: Toasts,
 }
 
@@ -107,18 +107,16 @@ impl Shows for States {
     fn link(&self, view: View) -> Link {
         match view {
             View::Read | View::Sheet => self.read.link(),
-            View::Build => self.build.link(),
-            View::Check => self.check.link(),
             View::Devices => self.devices.link(),
+            View::Build | View::Check => self.later.link(view),
         }
     }
 
     fn follow(&self, view: View, link: Link) {
         match view {
             View::Read | View::Sheet => self.read.follow(link),
-            View::Build => self.build.follow(link),
-            View::Check => self.check.follow(link),
             View::Devices => self.devices.follow(link),
+            View::Build | View::Check => self.later.follow(view, link),
         }
     }
 

@@ -201,7 +201,9 @@ fn caption(leaf: &Field) -> String {
             None => leaf.value_text(),
         },
         // "read" of "Read holding registers": the field table has all of it.
-        Value::Selector { chosen, .. } => chosen.label.split(' ').next().unwrap_or_default().to_lowercase(),
+        Value::Selector { chosen, .. } => {
+            chosen.label.split(' ').next().unwrap_or_default().to_ascii_lowercase()
+        }
         Value::Missing { .. } => "cut off".to_owned(),
         Value::Group | Value::Bytes => String::new(),
         Value::Text(_) => leaf.value_text(),

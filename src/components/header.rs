@@ -69,11 +69,9 @@ fn CopyLink() -> impl IntoView {
     let toasts = expect_context::<Toasts>();
     let give = move |_| {
         spawn_local(async move {
-            let Some(link) = address.link().await else {
-                return toasts.say(
-                    "This is too long for a link, even compressed: mail programs and chats cut links of more \
-                     than 30,000 characters. Send it as a file.",
-                );
+            let link = match address.link().await {
+                Ok(link) => link,
+                Err(why) => return toasts.say(why.sentence()),
             };
             if copy(toasts, link).await {
                 toasts.say("Link copied. It contains everything shown; nothing is sent to a server.");

@@ -212,7 +212,7 @@ impl Client {
     }
 
     fn heard(&self, event: &MessageEvent) {
-        let Some((answer, beside)) = mail::read::<Answer>(&event.data()) else { return };
+        let Some((answer, beside)) = mail::read::<Answer>(&event.data()) else { return self.failed() };
         if let Some(running) = &mut *self.worker.borrow_mut() {
             running.watch = matches!(answer, Answer::Progress { .. }).then(|| self.watch(PATIENCE));
             if matches!(answer, Answer::Hello) {

@@ -7,8 +7,11 @@ use serde::{Deserialize, Serialize};
 use buslens::field::{Direction, Span};
 use buslens::tool::link::{keep_settings, kept_settings};
 use buslens::tool::digest::Digest;
-use buslens::tool::log::{Excerpt, Filter, Hidden, Input, Lanes, Marks, Numbers, Overview, Place, Reading, Redacted, Replaced, Row};
-use buslens::tool::{Options, Profile, Protocol};
+use buslens::tool::log::{
+    Excerpt, Filter, Held, Hidden, Input, Lanes, Marks, Numbers, Overview, Place, Reading, Redacted, Replaced,
+    Row, Seen,
+};
+use buslens::tool::{Options, Profile, Proposal, Protocol};
 
 /// How a file is to be read, where a person says so.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -110,6 +113,8 @@ pub enum Request {
         unit: Option<u8>,
         address: u16,
     },
+    /// The registers that can be drawn.
+    Held,
     /// The lines without bytes.
     Unread,
     /// A line to mark parts in.
@@ -209,6 +214,11 @@ pub enum Answer {
     /// The file is read.
     Ready(Overview),
     Findings(Vec<Found>),
+    /// The devices that units look like, and what lines tell that hold no telegram.
+    Beside {
+        proposals: Vec<Proposed>,
+        seen: Vec<Seen>,
+    },
     /// How many telegrams the list has now.
     List(usize),
     Lanes(Lanes),
@@ -220,6 +230,7 @@ pub enum Answer {
     /// There is no such telegram.
     NothingThere,
     Series(Vec<Value>),
+    Held(Vec<Held>),
     Unread {
         lines: Vec<(u32, String)>,
         more: usize,
@@ -259,6 +270,27 @@ pub struct Found {
     pub text: String,
     /// The indices of telegrams that show it.
     pub evidence: Vec<u32>,
+}
+
+/// A device that the telegrams of a unit look like.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Proposed {
+    /// Its key.
+    pub device: String,
+    /// Why.
+    pub text: String,
+    /// How much speaks for it, in bits of chance.
+    pub bits: i32,
+}
+
+impl Proposed {
+    pub fn of(proposal: &Proposal) -> Self {
+        Self {
+            device: proposal.device.key.to_owned(),
+            text: proposal.text.sentence() + ".",
+            bits: proposal.bits,
+        }
+    }
 }
 
 /// A telegram that is shown.

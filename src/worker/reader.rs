@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::messages::{Answer, Choice, Export, Found, Passed, Request, Shown, Value, Which};
+use super::messages::{Answer, Choice, Export, Found, Passed, Proposed, Request, Shown, Value, Which};
 use buslens::field::{Span, hex};
 use buslens::tool::digest::Digest;
 use buslens::tool::log::{CaptureFile, Entry, Finding, Hidden, Log, Role, Source};
@@ -40,6 +40,10 @@ impl<S: Source> Reader<S> {
         vec![
             Answer::Ready(self.log.overview()),
             Answer::Findings(self.findings.iter().map(found).collect()),
+            Answer::Beside {
+                proposals: self.log.proposals(&self.source).iter().map(Proposed::of).collect(),
+                seen: self.log.seen(&self.source),
+            },
             Answer::Lanes(self.log.lanes(None, STRETCHES)),
             Answer::List(self.chosen.len()),
         ]
@@ -65,6 +69,7 @@ impl<S: Source> Reader<S> {
             }
             Request::Show(which) => vec![self.show(*which)],
             Request::Series { unit, address } => vec![self.series(*unit, *address)],
+            Request::Held => vec![Answer::Held(self.log.held(&self.source))],
             Request::Unread => vec![self.unread()],
             Request::Sample => vec![self.sample()],
             Request::Digest => vec![Answer::Digest(Box::new(self.digest()))],

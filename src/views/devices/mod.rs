@@ -4,7 +4,7 @@ mod rows;
 mod state;
 mod units;
 
-use leptos::ev::KeyboardEvent;
+use leptos::ev::{self, KeyboardEvent};
 use leptos::html;
 use leptos::prelude::*;
 use leptos::wasm_bindgen::JsCast;
@@ -39,6 +39,12 @@ pub fn Devices() -> impl IntoView {
         }
         event.prevent_default();
     };
+    let dropped = window_event_listener(ev::drop, move |event| {
+        if let Some(file) = event.data_transfer().and_then(|data| data.files()?.get(0)) {
+            state.open(file);
+        }
+    });
+    on_cleanup(move || dropped.remove());
     view! {
         <div class="devices" on:keydown=keys>
             <div class="settings">

@@ -33,7 +33,8 @@ pub struct DeviceSettings {
 #[derive(Clone)]
 struct SetUp {
     settings: Settings,
-    entries: Entries,
+    /// The form as it was typed; as the settings have it where nobody typed.
+    entries: Option<Entries>,
 }
 
 /// What was set up at a time, before something happened to one thing.
@@ -45,8 +46,14 @@ struct Moment {
 }
 
 impl From<Settings> for SetUp {
-    fn from(mut settings: Settings) -> Self {
-        Self { entries: settings::entries(&mut settings), settings }
+    fn from(settings: Settings) -> Self {
+        Self { settings, entries: None }
+    }
+}
+
+impl SetUp {
+    fn entries(&self) -> Entries {
+        self.entries.clone().unwrap_or_else(|| settings::entries(&mut self.settings.clone()))
     }
 }
 
@@ -81,7 +88,7 @@ impl DeviceSettings {
 
     /// The form of it.
     pub fn entries(&self) -> Entries {
-        self.set_up.with(|set_up| set_up.entries.clone())
+        self.set_up.with(SetUp::entries)
     }
 
     pub fn rows(&self, list: List) -> Vec<setup::Row> {
@@ -113,7 +120,9 @@ impl DeviceSettings {
     /// Changes the entry at `path` of the form.
     pub fn edit(&self, path: &str, edit: &Edit) {
         self.change(Some(path), |set_up| {
-            set_up.entries.edit(&mut set_up.settings, path, edit.change());
+            let mut entries = set_up.entries();
+            entries.edit(&mut set_up.settings, path, edit.change());
+            set_up.entries = Some(entries);
         });
     }
 
@@ -162,10 +171,11 @@ impl DeviceSettings {
     /// Changes the settings by themselves; what was typed in the form and does not fit stays.
     fn rework(&self, change: impl FnOnce(&mut Settings)) {
         self.change(None, |set_up| {
+            let typed = set_up.entries();
             change(&mut set_up.settings);
-            let typed = set_up.entries.clone();
-            set_up.entries = settings::entries(&mut set_up.settings);
-            set_up.entries.keep_misfits(&mut set_up.settings, &typed);
+            let mut entries = settings::entries(&mut set_up.settings);
+            entries.keep_misfits(&mut set_up.settings, &typed);
+            set_up.entries = Some(entries);
         });
     }
 

@@ -1,6 +1,6 @@
 //! The input: the text, marks in it, and beside each line what it says.
 
-use leptos::ev::Event;
+use leptos::ev::{Event, KeyboardEvent};
 use leptos::html;
 use leptos::prelude::*;
 
@@ -30,6 +30,13 @@ pub fn Editor() -> impl IntoView {
     };
     let typed = move |event: Event| read.type_text(event_target_value(&event), cursor());
     let moved = move || read.follow_cursor(cursor());
+    // The tabulator that led here moved no cursor, nor do keys that are held down with others.
+    let key_moved = move |event: KeyboardEvent| {
+        let key = event.key();
+        if key.starts_with("Arrow") || matches!(key.as_str(), "Home" | "End" | "PageUp" | "PageDown") {
+            moved();
+        }
+    };
     // The marks stay behind their text.
     let scrolled = move |_| {
         if let (Some(area), Some(marks)) = (area.get_untracked(), marks.get_untracked()) {
@@ -67,7 +74,7 @@ pub fn Editor() -> impl IntoView {
                     prop:value=move || read.text()
                     on:input=typed
                     on:click=move |_| moved()
-                    on:keyup=move |_| moved()
+                    on:keyup=key_moved
                     on:scroll=scrolled
                 ></textarea>
             </div>

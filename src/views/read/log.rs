@@ -14,11 +14,13 @@ use crate::components::byte_strip::Lights;
 use crate::components::telegram::Shown;
 use crate::components::toast::Toasts;
 use crate::worker::client::Client;
-use crate::worker::messages::{self, Answer, Choice, Export, Found, How, Passed, Request, Value, Which};
+use crate::worker::messages::{
+    self, Answer, Choice, Export, Found, How, Passed, Proposed, Request, Value, Which,
+};
 use buslens::field::many;
 use buslens::tool::Options;
 use buslens::tool::digest::Digest;
-use buslens::tool::log::{Filter, Lanes, Overview, Row};
+use buslens::tool::log::{Filter, Held, Lanes, Overview, Row, Seen};
 
 /// How many rows are asked for at once: more than are in sight.
 pub const ASKED: usize = 80;
@@ -55,7 +57,8 @@ pub struct Current {
 /// What is known of the open log.
 #[derive(Clone, Copy)]
 pub struct LogState {
-    client: StoredValue<Rc<Client>, LocalStorage>,
+    /// Who reads it, once that part of the module is there.
+    client: StoredValue<Option<Rc<Client>>, LocalStorage>,
     toasts: Toasts,
     /// How it is read: the page takes what it is told for those bytes.
     options: RwSignal<Options>,
@@ -64,6 +67,10 @@ pub struct LogState {
     pub stage: RwSignal<Stage>,
     pub overview: RwSignal<Option<Arc<Overview>>>,
     pub findings: RwSignal<Vec<Found>>,
+    /// The devices that units look like, the surest first.
+    pub proposals: RwSignal<Vec<Proposed>>,
+    /// What lines tell that hold no telegram.
+    pub seen: RwSignal<Vec<Seen>>,
     pub lanes: RwSignal<Lanes>,
     /// How many telegrams the list has.
     pub total: RwSignal<usize>,
@@ -82,6 +89,8 @@ pub struct LogState {
     /// What a person noted on telegrams, by their numbers.
     pub notes: RwSignal<BTreeMap<usize, String>>,
     pub series: RwSignal<Option<Vec<Value>>>,
+    /// The registers that the log has values of.
+    pub held: RwSignal<Vec<Held>>,
     pub unread: RwSignal<Option<Unread>>,
     /// A line to mark parts in.
     pub sample: RwSignal<String>,
@@ -100,21 +109,16 @@ pub struct Unread {
 
 impl LogState {
     pub fn new(toasts: Toasts) -> Self {
-        // The client tells the state, and the state asks the client: one of them comes first.
-        let told = StoredValue::new_local(None::<Self>);
-        let hear = move |answer, beside| {
-            if let Some(state) = told.get_value() {
-                state.hear(answer, beside);
-            }
-        };
-        let state = Self {
-            client: StoredValue::new_local(Client::new(Rc::new(hear))),
+        Self {
+            client: StoredValue::new_local(None),
             toasts,
             options: RwSignal::default(),
             key: RwSignal::default(),
             stage: RwSignal::default(),
             overview: RwSignal::default(),
             findings: RwSignal::default(),
+            proposals: RwSignal::default(),
+            seen: RwSignal::default(),
             lanes: RwSignal::default(),
             total: RwSignal::default(),
             lists: RwSignal::default(),
@@ -126,29 +130,38 @@ impl LogState {
             only: RwSignal::default(),
             notes: RwSignal::default(),
             series: RwSignal::default(),
+            held: RwSignal::default(),
             unread: RwSignal::default(),
             sample: RwSignal::default(),
             digest: RwSignal::default(),
             passed: RwSignal::new_local(None),
-        };
-        told.set_value(Some(state));
-        state
+        }
+    }
+
+    /// From now on logs can be opened.
+    pub fn start(self) {
+        let hear = move |answer, beside| self.hear(answer, beside);
+        self.client.set_value(Some(Client::new(Rc::new(hear))));
+    }
+
+    fn client(&self) -> Rc<Client> {
+        self.client.get_value().expect("logs are opened once they can be")
     }
 
     /// Opens a small file in place of the one before.
     pub fn open_bytes(&self, key: &str, bytes: Vec<u8>, how: &How) {
         self.begin(key, bytes.len() as f64, how);
-        self.client.get_value().open_bytes(bytes, how);
+        self.client().open_bytes(bytes, how);
     }
 
     /// Opens a file of any size in place of the one before.
     pub fn open_file(&self, key: &str, file: Blob, how: How) {
         self.begin(key, file.size(), &how);
-        self.client.get_value().open_file(file, how);
+        self.client().open_file(file, how);
     }
 
     pub fn close(&self) {
-        self.client.get_value().close();
+        self.client().close();
         self.forget();
         self.stage.set(Stage::Closed);
     }
@@ -168,6 +181,8 @@ impl LogState {
     fn forget(&self) {
         self.overview.set(None);
         self.findings.set(Vec::new());
+        self.proposals.set(Vec::new());
+        self.seen.set(Vec::new());
         self.lanes.set(Lanes::default());
         self.total.set(0);
         self.rows.set((0, Vec::new()));
@@ -176,6 +191,7 @@ impl LogState {
         self.finding.set(None);
         self.only.set(false);
         self.series.set(None);
+        self.held.set(Vec::new());
         self.unread.set(None);
         self.sample.set(String::new());
         self.digest.set(None);
@@ -183,7 +199,7 @@ impl LogState {
     }
 
     pub fn ask(&self, request: Request) {
-        self.client.get_value().ask(request);
+        self.client().ask(request);
     }
 
     /// The devices are others, or set up in another way.
@@ -341,6 +357,11 @@ impl LogState {
                     Timeout::new(0, move || state.list()).forget();
                 }
             }
+            Answer::Beside { mut proposals, seen } => {
+                proposals.sort_by_key(|proposed| std::cmp::Reverse(proposed.bits));
+                self.proposals.set(proposals);
+                self.seen.set(seen);
+            }
             Answer::Lanes(lanes) => self.lanes.set(lanes),
             Answer::List(total) => {
                 self.total.set(total);
@@ -367,6 +388,7 @@ impl LogState {
             }
             Answer::NothingThere => self.toasts.say("There is no further one."),
             Answer::Series(values) => self.series.set(Some(values)),
+            Answer::Held(held) => self.held.set(held),
             Answer::Unread { lines, more } => self.unread.set(Some(Unread { lines, more })),
             Answer::Sample(line) => self.sample.set(line),
             Answer::Digest(digest) => self.digest.set(Some(Arc::new(*digest))),

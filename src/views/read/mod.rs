@@ -14,13 +14,14 @@ mod times;
 use leptos::ev;
 use leptos::prelude::*;
 
+use crate::address::View;
 use crate::browser::typing::is_typed_into;
 use crate::components::icon::{Glyph, Icon};
-use crate::views::later::LaterView;
+use crate::later::{CouldNotLoad, Later, LaterView, Part};
 use editor::Editor;
 use examples::Examples;
 use open_file::OpenFile;
-use reading::{ProposedDevice, ReadAs, ReadingChoices};
+use reading::{Beside, ProposedDevice, ReadAs, ReadingChoices};
 use start::Start;
 use telegrams::Telegrams;
 
@@ -30,6 +31,7 @@ pub use state::{Mode, ReadState};
 #[component]
 pub fn Read() -> impl IntoView {
     let read = expect_context::<ReadState>();
+    let later = expect_context::<Later>();
     // What is pasted where nothing is typed is meant for the input.
     let pasted = window_event_listener(ev::paste, move |event| {
         let text = event.clipboard_data().and_then(|data| data.get_data("text").ok());
@@ -43,11 +45,16 @@ pub fn Read() -> impl IntoView {
     let below = move || match read.mode() {
         Mode::Start => view! { <Start /> }.into_any(),
         Mode::Telegrams => view! { <Telegrams /> }.into_any(),
-        Mode::Log => view! { <LaterView which=|later| later.log /> }.into_any(),
+        Mode::Log => view! { <LaterView part=Part::Log view=View::Read /> }.into_any(),
     };
     view! {
         <Show when=move || has_editor.get()>
             <Input />
+        </Show>
+        <Show when=move || read.mode() == Mode::Telegrams && later.has_failed(Part::Log)>
+            <CouldNotLoad part=Part::Log>
+                "What reads logs could not be loaded: check the connection. Telegrams can be read one by one."
+            </CouldNotLoad>
         </Show>
         {below}
     }
@@ -60,6 +67,7 @@ fn Input() -> impl IntoView {
     view! {
         <section class="input-bar" aria-label="Input">
             <Editor />
+            <Beside />
             <div class="input-tools">
                 <ReadAs />
                 <ProposedDevice />

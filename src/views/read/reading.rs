@@ -4,7 +4,8 @@ use leptos::prelude::*;
 
 use super::ReadState;
 use super::state::Mode;
-use buslens::field::{Direction, count};
+use buslens::field::{Direction, count, grouped, many};
+use buslens::tool::log::Seen;
 use buslens::tool::{PROFILES, PROTOCOLS, Report, proposals};
 
 /// The line that says how the text was read.
@@ -23,7 +24,7 @@ pub fn ReadAs() -> impl IntoView {
                 view! {
                     <p class="read-as">
                         <strong class="bad">"There is no telegram in this text."</strong>
-                        " Expected bytes in hex, such as 01 03 00 C8 00 03 84 35."
+                        " Buslens looked for bytes (hex, decimal, escaped), with or without times and words around them, such as 01 03 00 C8 00 03 84 35. If a program wrote this text, switch on its debug output of bytes."
                     </p>
                 }
                 .into_any(),
@@ -60,6 +61,45 @@ pub fn ReadAs() -> impl IntoView {
             .into_any(),
         )
     }
+}
+
+/// What the text tells beside its telegrams, or in their place.
+#[component]
+pub fn Beside() -> impl IntoView {
+    let read = expect_context::<ReadState>();
+    let seen = Memo::new(move |_| read.report().seen.clone());
+    view! {
+        <Show when=move || seen.with(|seen| !seen.is_empty())>
+            <SeenList seen=seen.get() />
+        </Show>
+    }
+}
+
+/// What lines tell that hold no telegram.
+#[component]
+pub fn SeenList(seen: Vec<Seen>) -> impl IntoView {
+    let item = |seen: Seen| {
+        let place = match (seen.count, &seen.lines[..]) {
+            (count, []) => many(count, "piece"),
+            (1, [line, ..]) => format!("Line {line}"),
+            (count, lines) => {
+                let named: Vec<String> = lines.iter().map(u32::to_string).collect();
+                let more = if count > lines.len() {
+                    format!(" and {} more", grouped(count - lines.len()))
+                } else {
+                    String::new()
+                };
+                format!("Lines {}{more}", named.join(", "))
+            }
+        };
+        view! {
+            <li>
+                <span class="soft">{place} ": "</span>
+                {seen.text}
+            </li>
+        }
+    };
+    view! { <ul class="seen note">{seen.into_iter().map(item).collect_view()}</ul> }
 }
 
 /// The device whose manual the telegrams read well by, where none is chosen, with the reason.

@@ -16,6 +16,7 @@ use crate::browser::kept_file;
 use crate::components::byte_strip::Lights;
 use crate::components::telegram::Shown;
 use crate::components::toast::Toasts;
+use crate::later::{Later, Part as ModulePart};
 use crate::views::devices::DeviceSettings;
 use crate::worker::client::SMALL;
 use crate::worker::messages::{How, Marked, Part};
@@ -34,7 +35,7 @@ pub enum Mode {
     Start,
     /// Some telegrams, and the input to change them.
     Telegrams,
-    /// Many.
+    /// Many, which take a part of the module that comes later: without it they are shown like a few.
     Log,
 }
 
@@ -106,6 +107,7 @@ enum Given {
 impl ReadState {
     pub fn new() -> Self {
         let (address, toasts, devices) = (expect_context(), expect_context(), expect_context());
+        let later = expect_context::<Later>();
         let text = RwSignal::new(String::new());
         let settled = RwSignal::new(String::new());
         let file = RwSignal::new_local(None::<Opened>);
@@ -119,7 +121,7 @@ impl ReadState {
             match report.telegrams.len() {
                 _ if has_file => Mode::Log,
                 0 if settled.with(|text| text.trim().is_empty()) => Mode::Start,
-                n if n > FEW || (n > 2 && timed) => Mode::Log,
+                n if (n > FEW || n > 2 && timed) && !later.has_failed(ModulePart::Log) => Mode::Log,
                 _ => Mode::Telegrams,
             }
         });
@@ -136,7 +138,7 @@ impl ReadState {
             move |_, _, _| lights.clear(),
             false,
         );
-        let state = Self {
+        Self {
             address,
             toasts,
             devices,
@@ -154,13 +156,12 @@ impl ReadState {
             lights,
             editing: RwSignal::default(),
             log: LogState::new(toasts),
-        };
-        state.give_to_log();
-        state
+        }
     }
 
-    /// The log's reader gets whatever is a log, and how it is to be read.
-    fn give_to_log(self) {
+    /// From now on the log's reader gets whatever is a log, and how it is to be read.
+    pub fn read_logs(self) {
+        self.log.start();
         let waiting = StoredValue::new_local(None::<Timeout>);
         Effect::new(move |before: Option<Option<(Given, How)>>| {
             let how = self.how();
@@ -246,6 +247,15 @@ impl ReadState {
     /// What the input is called, where it has a name.
     pub fn file_name(&self) -> Option<String> {
         self.file.with(|file| file.as_ref().map(|file| file.name.clone()))
+    }
+
+    /// What is shown, in a few words: tabs and the browser's history tell pages apart by it.
+    pub fn title(&self) -> Option<String> {
+        match self.mode() {
+            Mode::Start => None,
+            Mode::Telegrams => self.shown.with(|shown| Some(shown.as_ref()?.detail.meaning().sentence())),
+            Mode::Log => Some(self.file_name().unwrap_or_else(|| "pasted log".to_owned())),
+        }
     }
 
     /// How telegrams are read, with how the devices are set up.
@@ -398,7 +408,8 @@ impl ReadState {
     }
 
     fn open_blob(&self, name: String, blob: Blob, modified: f64) {
-        let key = format!("{name}|{}|{modified}", blob.size());
+        // Whole numbers: what writes floats weighs 7 kB.
+        let key = format!("{name}|{}|{}", blob.size() as u64, modified as i64);
         self.offer_undo();
         self.missing.set(None);
         self.editing.set(false);

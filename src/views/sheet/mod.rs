@@ -9,6 +9,7 @@ use leptos::prelude::*;
 
 use crate::components::icon::{Glyph, Icon};
 use crate::components::segments::Segments;
+use crate::later::{Later, Part};
 use crate::views::outgoing::Summary;
 use crate::views::read::{Mode, ReadState};
 use crate::worker::messages::Request;
@@ -58,7 +59,11 @@ pub fn Sheet() -> impl IntoView {
         state.spelled_out.get().unwrap_or(usual)
     });
     // Of a log its reader knows, once it has read it.
+    let later = expect_context::<Later>();
     Effect::new(move || {
+        if is_log.get() {
+            later.load(Part::Log);
+        }
         if is_log.get() && read.log.overview.with(Option::is_some) {
             read.log.ask(Request::Digest);
         }

@@ -303,7 +303,7 @@ fn raw(value: u32, coil: bool) -> RawValue {
 
 fn shown(text: String) -> Shown {
     let plain = text.replace('\u{2212}', "-");
-    let number = || plain.parse::<f64>().ok().filter(|number| number.is_finite());
+    let number = || lexical_core::parse::<f64>(plain.as_bytes()).ok().filter(|number| number.is_finite());
     match (plain.parse(), number()) {
         (Ok(whole), _) => Shown::Whole(whole),
         (_, Some(number)) => Shown::Number(number),

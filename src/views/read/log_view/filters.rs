@@ -7,7 +7,7 @@ use crate::components::icon::{Glyph, Icon};
 use crate::components::segments::Segments;
 use crate::views::read::ReadState;
 use crate::views::read::reading::Choose;
-use crate::views::read::times::clock;
+use crate::views::read::times::stretch;
 use crate::worker::messages::{Request, Which};
 use buslens::field::{Direction, many};
 use buslens::tool::log::{Filter, State, Wanted};
@@ -195,7 +195,7 @@ fn FilterChips() -> impl IntoView {
                 chips.push((state_words(state), |filter| filter.state = None));
             }
             if let Some((from, to)) = filter.times {
-                chips.push((format!("{} to {}", clock(from), clock(to)), |filter| filter.times = None));
+                chips.push((stretch(from, to), |filter| filter.times = None));
             }
             if let Some((from, to)) = filter.places {
                 chips.push((format!("# {} to {}", from + 1, to + 1), |filter| filter.places = None));

@@ -7,7 +7,7 @@ use leptos::prelude::*;
 use crate::components::icon::{Glyph, Icon};
 use crate::components::state_badge::StateBadge;
 use crate::views::read::ReadState;
-use crate::views::read::times::{clock, delta};
+use crate::views::read::times::{clock, day_and_clock, delta, is_over_days};
 use buslens::field::Direction;
 use buslens::tool::log::Row;
 
@@ -60,6 +60,9 @@ pub fn List() -> impl IntoView {
     );
     let place = Memo::new(move |_| log.current.with(|current| current.as_ref().and_then(|it| it.told.place)));
     let total = Memo::new(move |_| log.total.get());
+    let dated = Memo::new(move |_| {
+        log.overview.with(|overview| is_over_days(overview.as_ref().and_then(|overview| overview.times)))
+    });
     // The telegram that is shown is in sight, wherever it was chosen.
     Effect::new(move |_| {
         let (Some(place), Some(list)) = (place.get(), list.get()) else { return };
@@ -100,7 +103,7 @@ pub fn List() -> impl IntoView {
         ("d", "Δ ms"),
         ("u", "Unit"),
         ("a", ""),
-        ("s", "What it says"),
+        ("s", "Meaning"),
         ("st", "State"),
     ];
     let heads = heads.map(|(class, title)| {
@@ -116,6 +119,7 @@ pub fn List() -> impl IntoView {
             node_ref=list
             class="list"
             class:untimed=move || log.overview.with(|it| it.as_ref().is_some_and(|it| it.times.is_none()))
+            class:dated=move || dated.get()
             role="grid"
             tabindex="0"
             aria-label="Telegrams"
@@ -136,7 +140,7 @@ pub fn List() -> impl IntoView {
                     <For
                         each=rows
                         key=|(place, row)| (*place, row.index)
-                        children=move |(place, row)| view! { <ListRow place row /> }
+                        children=move |(place, row)| view! { <ListRow place row dated=dated.get_untracked() /> }
                     />
                 </div>
             </div>
@@ -158,7 +162,7 @@ fn row_height() -> usize {
 }
 
 #[component]
-fn ListRow(place: usize, row: Row) -> impl IntoView {
+fn ListRow(place: usize, row: Row, dated: bool) -> impl IntoView {
     let log = expect_context::<ReadState>().log;
     let Row { index, time, delta: since, unit, direction, said, state, latency, .. } = row;
     let is_chosen = move || {
@@ -211,7 +215,7 @@ fn ListRow(place: usize, row: Row) -> impl IntoView {
             on:click=move |_| log.select(place)
         >
             <span role="gridcell" class="n">{index + 1}</span>
-            <span role="gridcell" class="t">{time.map(clock)}</span>
+            <span role="gridcell" class="t">{time.map(if dated { day_and_clock } else { clock })}</span>
             <span role="gridcell" class="d">{since.map(delta)}</span>
             <span role="gridcell" class="u">
                 {unit

@@ -14,7 +14,7 @@ use leptos::prelude::*;
 use super::ReadState;
 use super::log::Stage;
 use super::open_file::OpenFile;
-use super::times::clock;
+use super::times::stretch;
 use crate::components::icon::{Glyph, Icon};
 use crate::components::menu::{Menu, MenuItem, MenuLink};
 use crate::views::outgoing::{PassOn, Summary};
@@ -63,7 +63,8 @@ fn FileBar() -> impl IntoView {
             let overview = overview.as_ref()?;
             let mut said = vec![many(overview.telegrams, "telegram"), overview.protocol.clone()];
             if let Some((from, to)) = overview.times.filter(|(from, to)| to > from) {
-                said.push(format!("{} to {}", clock(from), clock(to)));
+                let zone = if overview.utc { " UTC" } else { "" };
+                said.push(format!("{}{zone}", stretch(from, to)));
             }
             Some(said.join(" · "))
         })

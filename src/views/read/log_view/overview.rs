@@ -4,8 +4,9 @@ use leptos::prelude::*;
 
 use crate::components::icon::{Glyph, Icon};
 use crate::views::read::ReadState;
+use crate::views::read::reading::SeenList;
 use crate::views::read::times::duration;
-use crate::worker::messages::Found;
+use crate::worker::messages::{Found, Proposed};
 use buslens::field::many;
 use buslens::tool::log::Unit;
 
@@ -52,9 +53,44 @@ pub fn Overview() -> impl IntoView {
                 <ul class="units note">
                     {move || units().into_iter().take(UNITS).map(unit).collect_view()} {more}
                 </ul>
+                <ProposedDevices />
+                {move || {
+                    let seen = log.seen.get();
+                    (!seen.is_empty()).then(|| view! { <SeenList seen /> })
+                }}
             </div>
             <Findings />
         </section>
+    }
+}
+
+/// The devices that units look like, where none is chosen.
+#[component]
+fn ProposedDevices() -> impl IntoView {
+    /// One for each device is enough.
+    const MOST: usize = 3;
+    let read = expect_context::<ReadState>();
+    let proposed = move |proposed: Proposed| {
+        let choose = move |_| read.read_as(|choices| choices.device.clone_from(&proposed.device));
+        view! {
+            <p class="proposed">
+                {proposed.text}
+                " "
+                <button type="button" class="button low" on:click=choose>
+                    "Use it"
+                </button>
+            </p>
+        }
+    };
+    move || {
+        let mut proposals = read.log.proposals.get();
+        let mut devices = Vec::new();
+        proposals.retain(|proposed| {
+            let first = !devices.contains(&proposed.device);
+            devices.push(proposed.device.clone());
+            first
+        });
+        proposals.into_iter().take(MOST).map(proposed).collect_view()
     }
 }
 

@@ -415,6 +415,11 @@ impl Traffic {
         &self.pauses
     }
 
+    /// How many pieces of a text are telegrams of each of the [`FOREIGN`](crate::dialogue::foreign::FOREIGN).
+    pub fn foreign_protocols(&self) -> &[u32] {
+        &self.foreign_protocols
+    }
+
     /// How many directions of connections carry no telegrams.
     pub fn foreign(&self) -> usize {
         self.lanes.iter().filter(|lane| matches!(lane.carries, Carries::Foreign)).count()

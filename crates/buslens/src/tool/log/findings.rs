@@ -33,6 +33,7 @@ impl Log {
         findings.extend(self.of_silence());
         findings.extend(self.of_refusals());
         findings.extend(self.of_lateness());
+        findings.extend(self.of_slowness());
         findings.extend(self.of_clients());
         findings.extend(self.of_pauses());
         findings.extend(self.of_values(source));
@@ -41,7 +42,10 @@ impl Log {
 
     /// Which devices the units look like, where none is chosen; by the beginning of the log.
     pub fn proposals(&self, source: &dyn Source) -> Vec<Proposal> {
-        let indices = self.beginning();
+        /// A device shows in few of them.
+        const ENOUGH: usize = 500;
+        let mut indices = self.beginning();
+        indices.truncate(ENOUGH);
         let mut found = crate::tool::proposals(&self.report(source, &indices));
         for proposal in &mut found {
             proposal.evidence = proposal.evidence.iter().filter_map(|at| indices.get(*at)).copied().collect();
@@ -228,6 +232,37 @@ impl Log {
             ),
             evidence: self.indices(|entry| entry.role == Role::Late),
         })
+    }
+
+    /// Units whose answers sometimes take much longer than usual.
+    fn of_slowness(&self) -> Vec<Finding> {
+        const FEWEST: usize = 3;
+        let mut slow: BTreeMap<(u16, Option<u8>), Vec<u32>> = BTreeMap::new();
+        for (entry, index) in self.entries().iter().zip(0_u32..).filter(|(entry, _)| self.is_slow(entry)) {
+            slow.entry((entry.port, entry.unit)).or_default().push(index);
+        }
+        let units = self.units();
+        let of_unit = |((port, unit), evidence): ((u16, Option<u8>), Vec<u32>)| {
+            let latency = |index: &u32| self.latency(&self.entries()[*index as usize]);
+            let least = evidence.iter().filter_map(latency).min()?;
+            let usual = units.iter().find(|it| (it.port, it.unit) == (port, unit))?.median?;
+            let who = unit.map_or("The server".to_owned(), |unit| format!("Unit {unit}"));
+            (evidence.len() >= FEWEST).then(|| Finding {
+                code: "slow-answers",
+                text: message!(
+                    "{who}: {n} took {least} ms or more, usually {usual} ms. See what it was busy with then, or let the \
+                     client wait longer",
+                    who = who,
+                    n = many(evidence.len(), "answer"),
+                    least = grouped(least as usize / 1000),
+                    usual = grouped((usual as usize).div_ceil(1000))
+                ),
+                evidence: evidence.into_iter().take(EVIDENCE).collect(),
+            })
+        };
+        let mut findings: Vec<Finding> = slow.into_iter().filter_map(of_unit).collect();
+        shorten(&mut findings, |n| message!("{n} more answered slowly at times", n = many(n, "unit")));
+        findings
     }
 
     /// Requests before an answer to the last one could come.

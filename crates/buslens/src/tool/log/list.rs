@@ -3,7 +3,7 @@
 #[cfg(feature = "json")]
 use serde::{Deserialize, Serialize};
 
-use super::{Entry, Log, Role, Source};
+use super::{Entry, Format, Log, Role, Source};
 use crate::dialogue::Certainty;
 use crate::field::{Direction, Message, hex, many};
 use crate::frame::Verdict;
@@ -161,6 +161,8 @@ pub struct Overview {
     pub unread: usize,
     /// The first and the last time.
     pub times: Option<(i64, i64)>,
+    /// They are UTC, as captures have them; others are whatever the program took for the time.
+    pub utc: bool,
     pub units: Vec<Unit>,
     pub functions: Vec<u8>,
     /// Lines and connections with their names, where there are several.
@@ -209,7 +211,7 @@ impl Log {
     }
 
     /// Whether a response took much longer than is usual for its unit and function.
-    fn is_slow(&self, entry: &Entry) -> bool {
+    pub(super) fn is_slow(&self, entry: &Entry) -> bool {
         /// Less than this nobody notices.
         const LEAST: u32 = 100_000;
         if entry.direction == Direction::Request {
@@ -283,6 +285,7 @@ impl Log {
             lines: self.lines() as usize,
             unread: self.unread().len(),
             times: all.times,
+            utc: matches!(self.format(), Format::Capture { .. }),
             units,
             functions,
             ports,

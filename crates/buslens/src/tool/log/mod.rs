@@ -19,6 +19,7 @@ mod places;
 #[cfg(feature = "captures")]
 mod redact;
 mod rows;
+mod seen;
 mod story;
 
 pub use crate::dialogue::traffic::{Dialog, Entry, Minutes, Role, Statistics};
@@ -31,9 +32,10 @@ pub use findings::Finding;
 pub use format::{Format, Refusal};
 pub use lanes::{Lane, Lanes, Mark};
 pub use list::{Overview, Row, State, Unit, brief};
-pub use pictures::{Bucket, Point, Timeline};
+pub use pictures::{Bucket, Held, Point, Timeline};
 #[cfg(feature = "captures")]
 pub use redact::{Hidden, Kind, Redacted, Replaced};
+pub use seen::Seen;
 pub use story::time_text;
 
 use std::collections::HashMap;

@@ -1,0 +1,249 @@
+//! What comes after the first view: parts of the module that are loaded when the page has time for them, or at
+//! once when somebody asks for what is in one. Who reads a telegram need not wait for the forms that build
+//! others, nor for what reads logs.
+//!
+//! What only these parts call is in them, and whatever is named outside of them is in the first one. So the
+//! states of their views are made by them, as context of the app, and outlast every switch of views; until
+//! then, what a view is to show is kept as a link.
+// What parts the module hands values over as C functions do.
+#![allow(unsafe_code)]
+
+use leptos::prelude::*;
+use leptos::task::spawn_local;
+use leptos::wasm_split::{SplitLoaderError, wasm_split};
+
+use crate::address::View;
+use crate::views::build::{Build, BuildState};
+use crate::views::check::{Check, CheckState};
+use crate::views::devices::Devices;
+use crate::views::read::{LogView, ReadState};
+use crate::views::sheet::Sheet;
+use buslens::tool::link::Link;
+
+/// A part of the module.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// Build, Check, Devices and Sheet.
+    Views,
+    /// What reads logs, and what shows them.
+    Log,
+}
+
+/// What is in a part.
+#[derive(Clone, Copy)]
+struct Content {
+    /// Makes what outlasts its views; called once, for the app.
+    start: fn(),
+    view: fn(View) -> AnyView,
+}
+
+#[wasm_split(views, wasm_split_path = leptos::wasm_split, fallible)]
+fn views() -> Result<Content, NotLoaded> {
+    fn start() {
+        let later = expect_context::<Later>();
+        let (build, check) = (BuildState::new(), CheckState::new());
+        provide_context(build);
+        provide_context(check);
+        later.give(View::Build, Box::new(build));
+        later.give(View::Check, Box::new(check));
+    }
+    fn view(view: View) -> AnyView {
+        match view {
+            View::Build => view! { <Build /> }.into_any(),
+            View::Check => view! { <Check /> }.into_any(),
+            View::Devices => view! { <Devices /> }.into_any(),
+            View::Sheet | View::Read => view! { <Sheet /> }.into_any(),
+        }
+    }
+    Ok(Content { start, view })
+}
+
+#[wasm_split(log, wasm_split_path = leptos::wasm_split, fallible)]
+fn log() -> Result<Content, NotLoaded> {
+    Ok(Content {
+        start: || expect_context::<ReadState>().read_logs(),
+        view: |_| view! { <LogView /> }.into_any(),
+    })
+}
+
+/// Answers what the page asks about logs; for the worker.
+#[wasm_split(log, wasm_split_path = leptos::wasm_split, fallible)]
+pub fn serve_logs() -> Result<(), NotLoaded> {
+    crate::worker::serve();
+    Ok(())
+}
+
+/// It did not come: the connection is gone.
+pub struct NotLoaded;
+
+impl From<SplitLoaderError> for NotLoaded {
+    fn from(_: SplitLoaderError) -> Self {
+        Self
+    }
+}
+
+/// How far a part is loaded.
+#[derive(Clone, Copy)]
+enum Stage {
+    Not,
+    Loading,
+    Failed,
+    There(Content),
+}
+
+/// The state of a view, as links know it.
+pub trait Linked {
+    fn link(&self) -> Link;
+    fn follow(&self, link: Link);
+}
+
+impl Linked for BuildState {
+    fn link(&self) -> Link {
+        self.link()
+    }
+
+    fn follow(&self, link: Link) {
+        self.follow(link);
+    }
+}
+
+impl Linked for CheckState {
+    fn link(&self) -> Link {
+        self.link()
+    }
+
+    fn follow(&self, link: Link) {
+        self.follow(link);
+    }
+}
+
+/// The later parts, as far as they are there.
+#[derive(Clone, Copy)]
+pub struct Later {
+    views: RwSignal<Stage, LocalStorage>,
+    log: RwSignal<Stage, LocalStorage>,
+    /// Owns what the parts make.
+    app: StoredValue<Owner>,
+    states: StoredValue<Vec<(View, Box<dyn Linked>)>, LocalStorage>,
+    /// What views are to show once they are there.
+    waiting: StoredValue<Vec<(View, Link)>, LocalStorage>,
+}
+
+impl Later {
+    /// For the component in which it is made.
+    pub fn new() -> Self {
+        Self {
+            views: RwSignal::new_local(Stage::Not),
+            log: RwSignal::new_local(Stage::Not),
+            app: StoredValue::new(Owner::current().unwrap_or_default()),
+            states: StoredValue::new_local(Vec::new()),
+            waiting: StoredValue::new_local(Vec::new()),
+        }
+    }
+
+    const fn stage(self, part: Part) -> RwSignal<Stage, LocalStorage> {
+        match part {
+            Part::Views => self.views,
+            Part::Log => self.log,
+        }
+    }
+
+    /// Loads a part, if that has not begun.
+    pub fn load(self, part: Part) {
+        let stage = self.stage(part);
+        if let Stage::Loading | Stage::There(_) = stage.get_untracked() {
+            return;
+        }
+        stage.set(Stage::Loading);
+        spawn_local(async move {
+            let loaded = match part {
+                Part::Views => views().await,
+                Part::Log => log().await,
+            };
+            stage.set(match loaded {
+                Ok(content) => {
+                    self.app.get_value().with(content.start);
+                    Stage::There(content)
+                }
+                Err(NotLoaded) => Stage::Failed,
+            });
+        });
+    }
+
+    /// Whether a part could not be loaded.
+    pub fn has_failed(self, part: Part) -> bool {
+        matches!(self.stage(part).get(), Stage::Failed)
+    }
+
+    /// What `view` shows, or is to show.
+    pub fn link(self, view: View) -> Link {
+        let shown = self.states.with_value(|states| {
+            states.iter().find(|(other, _)| *other == view).map(|(_, state)| state.link())
+        });
+        let waiting = || {
+            self.waiting.with_value(|waiting| {
+                waiting.iter().find(|(other, _)| *other == view).map(|(_, link)| link.clone())
+            })
+        };
+        shown.or_else(waiting).unwrap_or_default()
+    }
+
+    /// `view` shows something else, now or once it is there.
+    pub fn follow(self, view: View, link: Link) {
+        let rest = self.states.with_value(|states| match states.iter().find(|(other, _)| *other == view) {
+            Some((_, state)) => {
+                state.follow(link);
+                None
+            }
+            None => Some(link),
+        });
+        if let Some(link) = rest {
+            self.waiting.update_value(|waiting| {
+                waiting.retain(|(other, _)| *other != view);
+                waiting.push((view, link));
+            });
+        }
+    }
+
+    /// A state is there.
+    fn give(self, view: View, state: Box<dyn Linked>) {
+        let waiting = self.waiting.try_update_value(|waiting| {
+            let at = waiting.iter().position(|(other, _)| *other == view)?;
+            Some(waiting.swap_remove(at).1)
+        });
+        if let Some(link) = waiting.flatten() {
+            state.follow(link);
+        }
+        self.states.update_value(|states| states.push((view, state)));
+    }
+}
+
+/// The view of a later part, which is loaded if it is not there.
+#[component]
+pub fn LaterView(part: Part, view: View) -> impl IntoView {
+    let later = expect_context::<Later>();
+    later.load(part);
+    move || {
+        match later.stage(part).get() {
+        Stage::There(content) => (content.view)(view),
+        Stage::Not | Stage::Loading => {
+            view! { <p class="coming" role="status">"One moment"</p> }.into_any()
+        }
+        Stage::Failed => view! { <CouldNotLoad part>"This view could not be loaded: check the connection. What you typed is still here."</CouldNotLoad> }.into_any(),
+    }
+    }
+}
+
+/// Says that a part could not be loaded, and what that means.
+#[component]
+pub fn CouldNotLoad(part: Part, children: Children) -> impl IntoView {
+    let later = expect_context::<Later>();
+    view! {
+        <div class="refused" role="alert">
+            <span>{children()}</span>
+            <button type="button" class="button low" on:click=move |_| later.load(part)>
+                "Try again"
+            </button>
+        </div>
+    }
+}
