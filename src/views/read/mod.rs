@@ -24,11 +24,10 @@ use examples::Examples;
 use open_file::OpenFile;
 use reading::{Beside, ProposedDevice, ReadAs, ReadingChoices};
 use start::{Start, Welcome};
-use state::Mode;
 use telegrams::Telegrams;
 
 pub use log_view::LogView;
-pub use state::ReadState;
+pub use state::{Mode, ReadState};
 
 #[component]
 pub fn Read() -> impl IntoView {

@@ -133,7 +133,7 @@ pub fn Kind(shown: Shown) -> impl IntoView {
         })
         .collect();
     let others = (!others.is_empty()).then(|| view! { " It could also be " {others} "." });
-    let device = shown.options.device.map(|device: &Profile| format!(" {}.", device.label));
+    let device = shown.options.device_of(telegram.unit).map(|device: &Profile| format!(" {}.", device.label));
     view! {
         <p class="kind">
             {shown.detail.kind.sentence()} ", " {Message::bytes(shown.bytes().len()).to_string()} "." {device}

@@ -3,6 +3,9 @@
 //! A [`Log`] keeps 40 bytes and the telegram's own bytes for each telegram. The tree of fields is
 //! made for those that somebody looks at, by [`Log::report`], which reads their lines again.
 
+#[cfg(feature = "captures")]
+mod capture_file;
+mod digest;
 mod excerpt;
 mod filter;
 mod findings;
@@ -13,12 +16,16 @@ mod list;
 mod packets;
 mod pictures;
 mod places;
+#[cfg(feature = "captures")]
+mod redact;
 mod rows;
 mod seen;
 mod story;
 
 pub use crate::dialogue::traffic::{Dialog, Entry, Minutes, Role, Statistics};
 pub use crate::text::{LAYOUTS, Layout, Marks, Numbers, Place};
+#[cfg(feature = "captures")]
+pub use capture_file::CaptureFile;
 pub use excerpt::Excerpt;
 pub use filter::{Filter, Wanted, is_error};
 pub use findings::Finding;
@@ -26,6 +33,8 @@ pub use format::{Format, Refusal};
 pub use lanes::{Lane, Lanes, Mark};
 pub use list::{Overview, Row, State, Unit, brief};
 pub use pictures::{Bucket, Held, Point, Timeline};
+#[cfg(feature = "captures")]
+pub use redact::{Hidden, Kind, Redacted, Replaced};
 pub use seen::Seen;
 pub use story::time_text;
 
@@ -35,6 +44,8 @@ use super::Options;
 use super::decode::Report;
 use crate::dialogue::traffic::{Chunk, Hint, Traffic, statistics};
 use crate::dialogue::{self, Candidate, Choice};
+#[cfg(feature = "captures")]
+use crate::field::Facts;
 use crate::frame::split::{Splitter, can_split};
 use crate::frame::{PROTOCOLS, Protocol, Settings, modbus_ascii, modbus_pdu};
 use crate::message;
@@ -481,6 +492,19 @@ fn of_segment<'a>(segment: &crate::capture::Segment<'a>) -> Chunk<'a> {
     ///
     /// Source: Modbus messaging on TCP/IP V1.0b, section 4.3.1.
     const MODBUS: u16 = 502;
+    if let Some(sent) = segment.serial {
+        return Chunk {
+            bytes: segment.bytes,
+            time: segment.time,
+            hint: sent.map_or(Hint::None, |sent| if sent { Hint::Logger } else { Hint::Other }),
+            port: u16::try_from(segment.connection).unwrap_or(u16::MAX),
+            line: segment.line,
+            offset: segment.offset as u32,
+            // Nothing stands in the packet but the telegram.
+            facts: Some(Facts { bare: true, ..Facts::default() }),
+            ..Chunk::default()
+        };
+    }
     let direction = if segment.from_client { Direction::Request } else { Direction::Response };
     Chunk {
         bytes: segment.bytes,
