@@ -13,12 +13,13 @@ use buslens::tool::{Explanation, Options};
 /// The causes, best first. The first is open.
 #[component]
 pub fn Causes(shown: Shown) -> impl IntoView {
-    let warning = shown.undecidable.as_ref().map(|why| why.sentence() + ".");
+    let warning = shown.report.undecidable(shown.index).map(|why| why.sentence() + ".");
     let causes: Vec<_> = shown
-        .causes
-        .iter()
+        .report
+        .explanations(shown.index)
+        .into_iter()
         .enumerate()
-        .map(|(index, cause)| view! { <Cause shown=shown.clone() cause=cause.clone() open=index == 0 /> })
+        .map(|(index, cause)| view! { <Cause shown=shown.clone() cause open=index == 0 /> })
         .collect();
     (!causes.is_empty()).then(|| {
         view! {

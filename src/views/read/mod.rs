@@ -14,10 +14,9 @@ mod times;
 use leptos::ev;
 use leptos::prelude::*;
 
-use crate::address::View;
 use crate::browser::typing::is_typed_into;
 use crate::components::icon::{Glyph, Icon};
-use crate::later::{CouldNotLoad, Later, LaterView, Part};
+use crate::later::{CouldNotLoad, Later, LaterPiece, Part, Piece};
 use editor::Editor;
 use examples::Examples;
 use open_file::OpenFile;
@@ -46,7 +45,7 @@ pub fn Read() -> impl IntoView {
     let below = move || match read.mode() {
         Mode::Start => view! { <Start /> }.into_any(),
         Mode::Telegrams => view! { <Telegrams /> }.into_any(),
-        Mode::Log => view! { <LaterView part=Part::Log view=View::Read /> }.into_any(),
+        Mode::Log => view! { <LaterPiece piece=Piece::Log /> }.into_any(),
     };
     view! {
         <Show when=move || has_editor.get()>
