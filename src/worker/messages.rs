@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use buslens::field::{Direction, Span};
 use buslens::tool::link::{keep_settings, kept_settings};
 use buslens::tool::log::{
-    Excerpt, Filter, Input, Lanes, Marks, Numbers, Overview, Place, Reading, Row, Seen,
+    Excerpt, Filter, Held, Input, Lanes, Marks, Numbers, Overview, Place, Reading, Row, Seen,
 };
 use buslens::tool::{Options, Profile, Proposal, Protocol};
 
@@ -111,6 +111,8 @@ pub enum Request {
         unit: Option<u8>,
         address: u16,
     },
+    /// The registers that can be drawn.
+    Held,
     /// The lines without bytes.
     Unread,
     /// A line to mark parts in.
@@ -215,6 +217,7 @@ pub enum Answer {
     /// There is no such telegram.
     NothingThere,
     Series(Vec<Value>),
+    Held(Vec<Held>),
     Unread {
         lines: Vec<(u32, String)>,
         more: usize,

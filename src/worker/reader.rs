@@ -68,6 +68,7 @@ impl<S: Source> Reader<S> {
             }
             Request::Show(which) => vec![self.show(*which)],
             Request::Series { unit, address } => vec![self.series(*unit, *address)],
+            Request::Held => vec![Answer::Held(self.log.held(&self.source))],
             Request::Unread => vec![self.unread()],
             Request::Sample => vec![self.sample()],
             Request::Open(_) | Request::Stop | Request::Export { .. } => Vec::new(),

@@ -17,7 +17,7 @@ use crate::worker::client::Client;
 use crate::worker::messages::{self, Answer, Choice, Export, Found, How, Proposed, Request, Value, Which};
 use buslens::field::many;
 use buslens::tool::Options;
-use buslens::tool::log::{Filter, Lanes, Overview, Row, Seen};
+use buslens::tool::log::{Filter, Held, Lanes, Overview, Row, Seen};
 
 /// How many rows are asked for at once: more than are in sight.
 pub const ASKED: usize = 80;
@@ -86,6 +86,8 @@ pub struct LogState {
     /// What a person noted on telegrams, by their numbers.
     pub notes: RwSignal<BTreeMap<usize, String>>,
     pub series: RwSignal<Option<Vec<Value>>>,
+    /// The registers that the log has values of.
+    pub held: RwSignal<Vec<Held>>,
     pub unread: RwSignal<Option<Unread>>,
     /// A line to mark parts in.
     pub sample: RwSignal<String>,
@@ -121,6 +123,7 @@ impl LogState {
             only: RwSignal::default(),
             notes: RwSignal::default(),
             series: RwSignal::default(),
+            held: RwSignal::default(),
             unread: RwSignal::default(),
             sample: RwSignal::default(),
         }
@@ -179,6 +182,7 @@ impl LogState {
         self.finding.set(None);
         self.only.set(false);
         self.series.set(None);
+        self.held.set(Vec::new());
         self.unread.set(None);
         self.sample.set(String::new());
     }
@@ -389,6 +393,7 @@ impl LogState {
             }
             Answer::NothingThere => self.toasts.say("There is no further one."),
             Answer::Series(values) => self.series.set(Some(values)),
+            Answer::Held(held) => self.held.set(held),
             Answer::Unread { lines, more } => self.unread.set(Some(Unread { lines, more })),
             Answer::Sample(line) => self.sample.set(line),
             Answer::Exported(kind) => {

@@ -425,6 +425,15 @@ impl ReadState {
         });
     }
 
+    /// Keeps the open file for a reload; whether the browser did it. Another tab may have kept its own
+    /// in the meantime.
+    pub async fn keep_file(&self) -> bool {
+        match self.file.get_untracked() {
+            Some(file) => kept_file::keep(&file.key, &file.blob).await,
+            None => true,
+        }
+    }
+
     /// Reads the open file once more.
     pub fn read_again(&self) {
         self.file.update(|_| {});

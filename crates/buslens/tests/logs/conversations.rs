@@ -242,6 +242,27 @@ fn filters_choose() {
     assert_eq!(timeline.buckets.iter().map(|bucket| bucket.errors).sum::<u32>(), 1);
     let values: Vec<f64> = log.series(&source, Some(5), 7, 100).iter().map(|point| point.value).collect();
     assert_eq!(values, [258.0, 7.0]);
+    // What is offered to be drawn has values; a device's manual gives it a name.
+    let held = log.held(&source);
+    assert!(held.len() > 10 && held.iter().all(|held| held.unit == Some(5) && held.name.is_empty()));
+    for held in &held {
+        assert!(!log.series(&source, held.unit, held.address, 10).is_empty(), "{held:?}");
+    }
+}
+
+#[test]
+fn registers_to_draw_have_the_names_of_the_manual() {
+    let text = self::log(&[
+        (0, "Tx", rtu(&[1, 3, 0, 200, 0, 3])),
+        (20, "Rx", rtu(&[1, 3, 6, 0, 0x80, 0x42, 0xF6, 0xE9, 0x79])),
+    ]);
+    let device = buslens::tool::Profile::of("memograph-rsg45");
+    let log =
+        Log::read(text.as_bytes(), &Reading::default(), Options { device, ..Options::default() }).unwrap();
+    let held = log.held(&text.as_bytes());
+    let names: Vec<(u16, &str)> = held.iter().map(|held| (held.address, held.name.as_str())).collect();
+    assert_eq!(names, [(200, "Universal channel 1")]);
+    assert_eq!(log.series(&text.as_bytes(), Some(1), 200, 10)[0].value, 123.456);
 }
 
 #[test]

@@ -15,7 +15,7 @@ use crate::views::read::reading::{Choose, ReadingChoices};
 use crate::views::read::times::{clock, duration};
 use crate::worker::messages::{Part, Request, Value, Which};
 use buslens::field::{Span, count};
-use buslens::tool::log::Unit;
+use buslens::tool::log::{Held, Unit};
 
 #[component]
 pub fn Tools() -> impl IntoView {
@@ -127,8 +127,33 @@ fn Series(open: RwSignal<bool>) -> impl IntoView {
     };
     let first = log.overview.with_untracked(|it| it.as_ref().and_then(|it| it.units.first()?.unit));
     unit.set(first.map_or(String::new(), |unit| unit.to_string()));
+    log.ask(Request::Held);
+    let option = |(index, held): (usize, Held)| {
+        let unit = held.unit.map_or(String::new(), |unit| format!("Unit {unit}, "));
+        let label = match held.name.is_empty() {
+            true => format!("{unit}register {}", held.address),
+            false => format!("{unit}{} ({})", held.name, held.address),
+        };
+        view! { <option value=index.to_string()>{label}</option> }
+    };
+    let choose = move |event| {
+        let index: Option<usize> = event_target_value(&event).parse().ok();
+        let Some(held) = log.held.with_untracked(|held| held.get(index?).cloned()) else { return };
+        unit.set(held.unit.map_or(String::new(), |unit| unit.to_string()));
+        register.set(held.address.to_string());
+        log.ask(Request::Series { unit: held.unit, address: held.address });
+    };
     view! {
         <form class="asked" on:submit=draw>
+            <Show when=move || log.held.with(|held| !held.is_empty())>
+                <label>
+                    <span>"In this log"</span>
+                    <select class="select" on:change=choose>
+                        <option value="">"choose …"</option>
+                        {move || log.held.get().into_iter().enumerate().map(option).collect_view()}
+                    </select>
+                </label>
+            </Show>
             <label>
                 <span>"Unit"</span>
                 <input

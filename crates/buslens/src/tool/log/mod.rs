@@ -25,7 +25,7 @@ pub use findings::Finding;
 pub use format::{Format, Refusal};
 pub use lanes::{Lane, Lanes, Mark};
 pub use list::{Overview, Row, State, Unit, brief};
-pub use pictures::{Bucket, Point, Timeline};
+pub use pictures::{Bucket, Held, Point, Timeline};
 pub use seen::Seen;
 pub use story::time_text;
 

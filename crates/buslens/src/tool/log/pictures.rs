@@ -1,6 +1,8 @@
 //! What can be seen at a glance: telegrams, errors and response times over time, and the values of
 //! a register.
 
+use std::collections::BTreeMap;
+
 use super::filter::is_error;
 use super::{Entry, Log, Source};
 use crate::field::Direction;
@@ -31,6 +33,16 @@ pub struct Point {
     pub index: usize,
     pub time: Option<i64>,
     pub value: f64,
+}
+
+/// A register that a log has values of.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "json", derive(serde::Serialize, serde::Deserialize))]
+pub struct Held {
+    pub unit: Option<u8>,
+    pub address: u16,
+    /// What the device's manual calls it; empty where it has no name.
+    pub name: String,
 }
 
 impl Log {
@@ -97,6 +109,44 @@ impl Log {
             Some(Point { index: *index, time: entry.time(), value: self.value(source, *index, address)? })
         };
         found.iter().step_by(step).filter_map(point).collect()
+    }
+
+    /// The registers that the log has values of, by unit and address, with their names where the device's
+    /// manual has one.
+    pub fn held(&self, source: &dyn Source) -> Vec<Held> {
+        /// Each has registers of its own; a log that asks for more of them is not one that is looked through.
+        const RANGES: usize = 200;
+        let mut ranges: BTreeMap<(Option<u8>, u16, u16), usize> = BTreeMap::new();
+        for (index, entry) in self.entries().iter().enumerate() {
+            let carries = match entry.direction {
+                Direction::Response => matches!(entry.function, 3 | 4 | 100) && !entry.refuses(),
+                Direction::Request => matches!(entry.function, 6 | 16 | 101),
+            };
+            if carries
+                && entry.counts()
+                && ranges.len() < RANGES
+                && let Some((start, count)) = self.registers(entry)
+            {
+                ranges.entry((entry.unit, start, count)).or_insert(index);
+            }
+        }
+        let mut held: BTreeMap<(Option<u8>, u16), String> = BTreeMap::new();
+        for ((unit, start, _), index) in ranges {
+            let (report, place) = self.report_of(source, index);
+            let Some(detail) = report.detail(place) else { continue };
+            for block in &detail.device.blocks {
+                held.insert((unit, block.from), block.label().sentence());
+            }
+            let named = |address: u16| {
+                detail.device.blocks.iter().any(|block| (block.from..=block.to).contains(&address))
+            };
+            let count = u16::try_from(detail.values.len()).unwrap_or(u16::MAX);
+            for address in (start..start.saturating_add(count)).filter(|address| !named(*address)) {
+                held.entry((unit, address)).or_default();
+            }
+        }
+        let held = held.into_iter().map(|((unit, address), name)| Held { unit, address, name });
+        held.collect()
     }
 
     /// The value of a register in telegram `index`.
