@@ -27,15 +27,15 @@ pub fn command() -> Command {
         // The last one counts, so that a script can add to the options of another.
         .args_override_self(true)
         .arg(
-            choice("protocol", "What the telegrams are, where the bytes shall not tell")
+            choice("protocol", "PROTOCOL", "What the telegrams are, where the bytes shall not tell")
                 .value_parser(first("auto", "As the bytes tell").chain(protocols).collect::<Vec<_>>()),
         )
         .arg(
-            choice("device", "In whose words values are told")
+            choice("device", "DEVICE", "In whose words values are told")
                 .value_parser(first("none", "Any").chain(devices).collect::<Vec<_>>()),
         )
-        .arg(choice("direction", "What all telegrams are").value_parser(["auto", "request", "response"]))
-        .arg(choice("input", "What the file is").value_parser(Input::KEYS.map(|(key, _)| key)))
+        .arg(choice("direction", "DIRECTION", "What all telegrams are").value_parser(["auto", "request", "response"]))
+        .arg(choice("input", "INPUT", "What the file is").value_parser(Input::KEYS.map(|(key, _)| key)))
         .arg(
             Arg::new("settings")
                 .long("settings")
@@ -43,7 +43,7 @@ pub fn command() -> Command {
                 .value_parser(value_parser!(std::path::PathBuf))
                 .help("How the devices are set up, as the view Devices saves it: mapping lists, layouts, byte orders"),
         )
-        .arg(choice("language", "The language of the output").value_parser(["en"]))
+        .arg(choice("language", "LANGUAGE", "The language of the output").value_parser(["en"]))
         .arg(
             Arg::new("fields")
                 .long("fields")
@@ -59,8 +59,8 @@ pub fn command() -> Command {
         )
 }
 
-fn choice(name: &'static str, help: &'static str) -> Arg {
-    Arg::new(name).long(name).help(help)
+fn choice(name: &'static str, value: &'static str, help: &'static str) -> Arg {
+    Arg::new(name).long(name).value_name(value).help(help)
 }
 
 fn first(key: &'static str, help: &'static str) -> impl Iterator<Item = PossibleValue> {
