@@ -18,12 +18,13 @@ pub fn Causes(
     #[prop(optional)]
     on_use: Option<Callback<Vec<u8>>>,
 ) -> impl IntoView {
-    let warning = shown.undecidable.as_ref().map(|why| why.sentence() + ".");
+    let warning = shown.report.undecidable(shown.index).map(|why| why.sentence() + ".");
     let causes: Vec<_> = shown
-        .causes
-        .iter()
+        .report
+        .explanations(shown.index)
+        .into_iter()
         .enumerate()
-        .map(|(index, cause)| view! { <Cause shown=shown.clone() cause=cause.clone() open=index == 0 on_use /> })
+        .map(|(index, cause)| view! { <Cause shown=shown.clone() cause open=index == 0 on_use /> })
         .collect();
     (!causes.is_empty()).then(|| {
         view! {

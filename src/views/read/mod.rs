@@ -15,10 +15,9 @@ mod times;
 use leptos::ev;
 use leptos::prelude::*;
 
-use crate::address::View;
 use crate::browser::typing::is_typed_into;
 use crate::components::icon::{Glyph, Icon};
-use crate::later::{CouldNotLoad, Later, LaterView, Part};
+use crate::later::{CouldNotLoad, Later, LaterPiece, Part, Piece};
 use editor::Editor;
 use examples::Examples;
 use open_file::OpenFile;
@@ -27,6 +26,7 @@ use start::{Start, Welcome};
 use telegrams::Telegrams;
 
 pub use log_view::LogView;
+pub use pictures::Pictures;
 pub use state::{Mode, ReadState};
 
 #[component]
@@ -49,7 +49,7 @@ pub fn Read() -> impl IntoView {
         Mode::Start => view! { <Start /> }.into_any(),
         Mode::Telegrams if is_empty.get() => view! { <Nothing /> }.into_any(),
         Mode::Telegrams => view! { <Telegrams /> }.into_any(),
-        Mode::Log => view! { <LaterView part=Part::Log view=View::Read /> }.into_any(),
+        Mode::Log => view! { <LaterPiece piece=Piece::Log /> }.into_any(),
     };
     view! {
         <div class="read" class:start=move || starts.get()>

@@ -16,11 +16,9 @@ use buslens::tool::{Options, Profile, Report, decode};
 #[component]
 pub fn Pictures() -> impl IntoView {
     view! {
-        <aside class="pictures" aria-label="What comes of it">
-            <OneTelegram />
-            <ALog />
-            <ACause />
-        </aside>
+        <OneTelegram />
+        <ALog />
+        <ACause />
     }
 }
 
@@ -104,7 +102,7 @@ fn ACause() -> impl IntoView {
     let broken = example(FLOW_CONTROL)?;
     let report = read(broken.text, broken.device);
     let shown = Shown::of(&report, 1, &Options::default())?;
-    let cause = shown.causes.first()?.clone();
+    let cause = report.explanations(1).into_iter().next()?;
     let found = shown.bytes().to_vec();
     let cells = |(at, byte): (usize, &u8)| {
         let text = format!("{byte:02X}");

@@ -5,7 +5,7 @@ use leptos::prelude::*;
 use super::ReadState;
 use super::examples::FirstExamples;
 use super::open_file::OpenFile;
-use super::pictures::Pictures;
+use crate::later::{LaterPiece, Piece};
 
 /// What stands over the input.
 #[component]
@@ -45,7 +45,9 @@ pub fn Start() -> impl IntoView {
                 "More under Examples; or " <a href="#/build">"build a telegram"</a> " by saying what it should do."
             </p>
         </section>
-        <Pictures />
+        <div class="pictures">
+            <LaterPiece piece=Piece::Pictures />
+        </div>
         <dl class="kinds">
             <div>
                 <dt>"Protocols"</dt>

@@ -22,8 +22,8 @@ use crate::worker::client::SMALL;
 use crate::worker::messages::{How, Marked, Part};
 use buslens::field::{Direction, Span, count, hex};
 use buslens::tool::link::Link;
-use buslens::tool::log::{Reading, State};
-use buslens::tool::{Options, Profile, Protocol, Report, decode, decode_file};
+use buslens::tool::log::State;
+use buslens::tool::{Options, Profile, Protocol, Report, decode, decode_pasted};
 
 /// So many telegrams are looked at one by one; more are a log.
 const FEW: usize = 8;
@@ -536,8 +536,7 @@ fn read(text: &str, options: Options) -> Report {
         return decode(text, options);
     }
     // What is no log at all is still looked at, line by line.
-    decode_file(text.as_bytes(), &Reading::default(), options.clone())
-        .unwrap_or_else(|_| decode(text, options))
+    decode_pasted(text, options.clone()).unwrap_or_else(|_| decode(text, options))
 }
 
 fn options(choices: &Choices, devices: DeviceSettings) -> Options {

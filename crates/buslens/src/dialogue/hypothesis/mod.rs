@@ -148,12 +148,6 @@ impl Hypothesis {
         }
     }
 
-    /// Whether such a telegram is found so rarely although nothing of the kind happened, less than once in 20
-    /// times, that it is worth believing.
-    pub fn is_telling(&self) -> bool {
-        self.tries.is_some_and(|tries| tries.saturating_mul(20) < self.checks)
-    }
-
     /// What is different: the bytes of `found` that are not in it, and its bytes that are not in
     /// `found`.
     pub fn difference(&self, found: &[u8]) -> (Vec<Span>, Vec<Span>) {
@@ -373,8 +367,6 @@ mod tests {
         assert_eq!(one(Some(60_000)).odds().to_string(), "1 in 2");
         assert_eq!(one(Some(100_000)).odds().to_string(), "always");
         assert_eq!(one(None).odds().to_string(), "always");
-        assert!(one(Some(CHECKS / 20 - 1)).is_telling() && !one(Some(CHECKS / 20 + 1)).is_telling());
-        assert!(!one(None).is_telling());
     }
 
     proptest! {
