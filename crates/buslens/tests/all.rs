@@ -14,6 +14,8 @@ mod devices;
 mod devices_in_logs;
 #[path = "hypotheses/main.rs"]
 mod hypotheses;
+#[path = "going_out.rs"]
+mod going_out;
 #[path = "keb.rs"]
 mod keb;
 #[path = "kinds.rs"]
