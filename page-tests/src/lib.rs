@@ -1,10 +1,11 @@
 //! A browser with the page in it, as the tests in `tests/` use it.
 //!
 //! `cargo xtask test` builds the page, serves it, starts a WebDriver and runs the tests with what
-//! they need in the environment: `BUSLENS_URL`, `WEBDRIVER_URL`, `BUSLENS_CHROMIUM`, `BUSLENS_AXE`
-//! and `BUSLENS_SCREENSHOTS`.
+//! they need in the environment: `BUSLENS_URL`, `BUSLENS_DIST`, `WEBDRIVER_URL`, `BUSLENS_CHROMIUM`,
+//! `BUSLENS_AXE` and `BUSLENS_SCREENSHOTS`.
 
 mod fields;
+mod site;
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -12,6 +13,8 @@ use std::time::Duration;
 use serde_json::{Value, json};
 use thirtyfour::LoggingPrefsLogLevel;
 use thirtyfour::prelude::*;
+
+pub use site::{Files, Site, dist, next_version, version};
 
 /// What a step of a test gives; the error says what went wrong.
 pub type Result<T = ()> = WebDriverResult<T>;
@@ -37,7 +40,20 @@ impl Page {
     }
 
     /// Opens a view of the page, or a link.
-    pub async fn open_at(fragment: &str, (width, height): (u32, u32), dark: bool) -> Result<Self> {
+    pub async fn open_at(fragment: &str, size: (u32, u32), dark: bool) -> Result<Self> {
+        Self::open_address(&format!("{}{fragment}", setting("BUSLENS_URL")), size, dark).await
+    }
+
+    /// Opens the page where it is by another address.
+    pub async fn open_address(address: &str, size: (u32, u32), dark: bool) -> Result<Self> {
+        let page = Self::empty(size, dark).await?;
+        page.driver.goto(address).await?;
+        page.one("main > *").await?;
+        Ok(page)
+    }
+
+    /// A browser without the page.
+    pub async fn empty((width, height): (u32, u32), dark: bool) -> Result<Self> {
         let mut options = DesiredCapabilities::chrome();
         options.set_binary(&setting("BUSLENS_CHROMIUM"))?;
         for argument in [
@@ -58,10 +74,7 @@ impl Page {
         driver.cdp().send_raw("Emulation.setDeviceMetricsOverride", metrics).await?;
         let scheme = json!({ "name": "prefers-color-scheme", "value": if dark { "dark" } else { "light" } });
         driver.cdp().send_raw("Emulation.setEmulatedMedia", json!({ "features": [scheme] })).await?;
-        let page = Self { driver };
-        page.driver.goto(format!("{}{fragment}", setting("BUSLENS_URL"))).await?;
-        page.one("main > *").await?;
-        Ok(page)
+        Ok(Self { driver })
     }
 
     /// Loads the page anew, with another view or a link.
@@ -267,7 +280,7 @@ impl Page {
             tokio::time::sleep(Duration::from_millis(25)).await;
             let found = std::fs::read_dir(&folder)?.flatten().map(|entry| entry.path());
             let whole = |path: &PathBuf| {
-                let ends = ["txt", "csv", "jsonl", "pcapng", "log"];
+                let ends = ["txt", "csv", "jsonl", "html", "pcapng", "log"];
                 path.extension().is_some_and(|it| ends.iter().any(|end| it == *end))
             };
             if let Some(path) = found.into_iter().find(whole) {

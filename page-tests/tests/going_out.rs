@@ -33,7 +33,8 @@ async fn the_summary_of_a_log_is_copied_and_shown() -> Result {
         open(&page, "converter.log", &text).await?;
         page.click_text(".file-bar button", "Copy summary for a mail").await?;
         page.until("dialog[open] .done", "Copied. Paste it into the mail").await?;
-        for said in ["What is wrong", "XON/XOFF", "Unit 9 answered none of", "Units", "Telegrams that matter"] {
+        for said in ["What is wrong", "XON/XOFF", "Unit 9 answered none of", "Units", "Telegrams that matter"]
+        {
             page.until("dialog[open] .digest", said).await?;
         }
         assert!(page.count("dialog[open] .lines tbody tr").await? <= 10);
@@ -41,7 +42,10 @@ async fn the_summary_of_a_log_is_copied_and_shown() -> Result {
         page.picture(&format!("summary-{name}")).await?;
         let text = page.clipboard().await?;
         assert!(text.starts_with("converter.log: "), "{text}");
-        assert!(text.contains("XON/XOFF") && text.contains("[damaged]") && text.contains("01 03 06"), "{text}");
+        assert!(
+            text.contains("XON/XOFF") && text.contains("[damaged]") && text.contains("01 03 06"),
+            "{text}"
+        );
         let html = page.clipboard_html().await?;
         assert!(html.contains("<table") && html.contains("XON/XOFF") && html.contains("01 03 06"), "{html}");
         // Without bytes it is copied again.

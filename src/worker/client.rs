@@ -4,21 +4,26 @@ use std::cell::{Cell, RefCell};
 use std::rc::{Rc, Weak};
 
 use gloo_timers::callback::Timeout;
-use leptos::prelude::document;
 use leptos::task::spawn_local;
 use wasm_bindgen::closure::Closure;
+use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_futures::JsFuture;
 use web_sys::js_sys::{Array, Uint8Array};
-use web_sys::{
-    Blob, Event, HtmlScriptElement, MessageEvent, Worker, WorkerOptions, WorkerType,
-};
+use web_sys::{Blob, Event, MessageEvent, Worker};
 
 use super::mail;
 use super::messages::{Answer, How, Request};
 use super::reader::Reader;
 use crate::browser::file;
 use buslens::tool::log::{Log, Source};
+
+#[wasm_bindgen]
+extern "C" {
+    /// Only the boot script knows where the module is: in files of a server, or in the document.
+    #[wasm_bindgen(js_name = startWorker, catch)]
+    fn start_worker() -> Result<Worker, JsValue>;
+}
 
 /// What is not larger is read where the page is, within a frame; the rest in the worker.
 pub const SMALL: usize = 1 << 16;
@@ -181,11 +186,7 @@ impl Client {
 
     /// Starts the module of the page once more, as a worker.
     fn start(&self) -> Option<Running> {
-        let script = document().query_selector("script[type=module]").ok()??;
-        let script: HtmlScriptElement = script.dyn_into().ok()?;
-        let options = WorkerOptions::new();
-        options.set_type(WorkerType::Module);
-        let worker = Worker::new_with_options(&script.src(), &options).ok()?;
+        let worker = start_worker().ok()?;
         let me = self.me.clone();
         let hear = Closure::<dyn Fn(MessageEvent)>::new(move |event: MessageEvent| {
             if let Some(client) = me.upgrade() {

@@ -5,11 +5,11 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use buslens::field::{Direction, Span};
-use buslens::tool::link::{keep_settings, kept_settings};
 use buslens::tool::digest::Digest;
+use buslens::tool::link::{keep_settings, kept_settings};
 use buslens::tool::log::{
-    Excerpt, Filter, Held, Hidden, Input, Lanes, Marks, Numbers, Overview, Place, Reading, Redacted, Replaced,
-    Row, Seen,
+    Excerpt, Filter, Held, Hidden, Input, Lanes, Marks, Numbers, Overview, Place, Reading, Redacted,
+    Replaced, Row, Seen,
 };
 use buslens::tool::{Options, Profile, Proposal, Protocol};
 

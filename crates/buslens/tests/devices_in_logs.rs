@@ -35,12 +35,8 @@ fn proposed(text: &str) -> Vec<(Option<u8>, &'static str, String)> {
 /// A recorder and a drive on one line, each in the words of its manual.
 #[test]
 fn units_are_read_as_their_own_devices() {
-    let text = log(&[
-        "01 03 00 C8 00 03",
-        "01 03 06 00 80 42 A4 F1 DE",
-        "03 03 20 34 00 01",
-        "03 03 02 05 DC",
-    ]);
+    let text =
+        log(&["01 03 00 C8 00 03", "01 03 06 00 80 42 A4 F1 DE", "03 03 20 34 00 01", "03 03 02 05 DC"]);
     let report = decode(&text, two_devices());
     let said = |index: usize| report.detail(index).unwrap().said.to_string();
     assert!(said(1).contains("Universal channel 1 = 82.4724"), "{}", said(1));

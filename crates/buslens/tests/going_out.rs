@@ -121,7 +121,8 @@ fn a_log_to_pass_on_reads_as_before() {
         let causes = |log: &Log, file: &[u8]| -> Vec<_> {
             let all: Vec<usize> = (0..log.entries().len()).collect();
             let report = log.report(&file, &all);
-            let best = |index| report.explanations(index).into_iter().next().map(|it| it.hypothesis.cause.key());
+            let best =
+                |index| report.explanations(index).into_iter().next().map(|it| it.hypothesis.cause.key());
             all.iter().map(|index| best(*index)).collect()
         };
         assert_eq!(causes(&again, &passed.file), causes(&log, &file), "{name}");
@@ -152,12 +153,8 @@ fn the_same_is_replaced_by_the_same() {
     assert!(lines[2].contains("slave=1 -> 01 03 06 "), "{said}");
     assert!(lines[3].contains("unit 2 <- 02 03 00 C8 00 03 84 06"), "{said}");
     // The text in the telegram and that in the words became the same.
-    let bytes: Vec<u8> = lines[2]
-        .split(' ')
-        .skip(6)
-        .take(6)
-        .map(|byte| u8::from_str_radix(byte, 16).unwrap())
-        .collect();
+    let bytes: Vec<u8> =
+        lines[2].split(' ').skip(6).take(6).map(|byte| u8::from_str_radix(byte, 16).unwrap()).collect();
     assert!(lines[2].ends_with(str::from_utf8(&bytes).unwrap()), "{said}");
     let list: String = passed.replaced.iter().map(Replaced::line).collect();
     assert!(list.contains("unit\t5\t1\t4\n") && list.contains("network address\t10.1.2.3\t"), "{list}");
@@ -192,7 +189,8 @@ fn a_capture_to_pass_on_has_other_ends() {
     let passed = redacted(&capture, &hidden());
     assert!(passed.is_capture);
     let (again, before) = (read(&passed.file, ""), read(&capture, ""));
-    let states = |log: &Log| -> Vec<_> { log.entries().iter().map(|it| (log.state(it), it.time())).collect() };
+    let states =
+        |log: &Log| -> Vec<_> { log.entries().iter().map(|it| (log.state(it), it.time())).collect() };
     assert_eq!(states(&again), states(&before));
 }
 

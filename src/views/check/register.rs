@@ -125,7 +125,8 @@ pub fn Worth() -> impl IntoView {
     let work = state.work();
     let facts = Memo::new(move |_| work.with(|work| facts(work.algorithm)));
     // Over a whole frame the register ends at 0: that is best seen.
-    let shows = move || work.with(|work| work.algorithm.width == 2 && work.found() == Some(work.wire().as_slice()));
+    let shows =
+        move || work.with(|work| work.algorithm.width == 2 && work.found() == Some(work.wire().as_slice()));
     let show = move |_| {
         state.choose_ending(Ending::Data);
         state.go(usize::MAX);
@@ -188,7 +189,10 @@ fn facts(algorithm: &Algorithm) -> Worthy {
                     "Bytes that changed places, changes that make up for each other, and of any other damage 1 in \
                      256.",
                 ),
-                ("How a receiver uses it", "It adds up all bytes and the LRC: 00h remains where all of it is right."),
+                (
+                    "How a receiver uses it",
+                    "It adds up all bytes and the LRC: 00h remains where all of it is right.",
+                ),
             ],
         },
         _ => Worthy {

@@ -162,7 +162,9 @@ fn outcome(passed: &Passed) -> impl IntoView + use<> {
     if passed.is_capture {
         stayed.push("The capture is written anew, of its telegrams only.".to_owned());
     }
-    stayed.push("Look through it before you pass it on: a log can name things in ways that nobody knows.".to_owned());
+    stayed.push(
+        "Look through it before you pass it on: a log can name things in ways that nobody knows.".to_owned(),
+    );
     let stayed = stayed.into_iter().map(|said| view! { <li>{said}</li> }).collect_view();
     view! {
         <h3 role="status">

@@ -31,7 +31,8 @@ pub fn Summary(
         let Some(digest) = digest.get_untracked() else { return };
         let with_bytes = with_bytes.get_untracked();
         spawn_local(async move {
-            let done = clipboard::write_both(&digest.text(with_bytes), &digest.html(with_bytes)).await.is_ok();
+            let done =
+                clipboard::write_both(&digest.text(with_bytes), &digest.html(with_bytes)).await.is_ok();
             copied.set(Some(done));
             toasts.announce(if done { "The summary is copied: paste it into the mail." } else { NOT_COPIED });
         });
@@ -99,5 +100,4 @@ pub fn Summary(
     }
 }
 
-const NOT_COPIED: &str =
-    "The browser does not let Buslens copy. Press “Copy again”, or select the text here and copy it with Ctrl+C.";
+const NOT_COPIED: &str = "The browser does not let Buslens copy. Press “Copy again”, or select the text here and copy it with Ctrl+C.";

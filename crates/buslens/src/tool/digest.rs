@@ -270,11 +270,8 @@ impl Digest {
     /// from what pages under a strict policy copy.
     pub fn html(&self, with_bytes: bool) -> String {
         let mut html = String::from("<div>");
-        let title = if self.title.is_empty() {
-            String::new()
-        } else {
-            format!("<b>{}</b>: ", escaped(&self.title))
-        };
+        let title =
+            if self.title.is_empty() { String::new() } else { format!("<b>{}</b>: ", escaped(&self.title)) };
         html += &format!("<p>{title}{}<br><b>{}</b></p>", escaped(&self.read), escaped(&self.headline));
         if !self.remarks.is_empty() {
             let remarks: String =
@@ -365,12 +362,14 @@ impl Party {
 
     /// "Unit 1 (Memograph M RSG45): 24 requests, all answered; 4 damaged; usually after 31 ms, at most 35 ms".
     fn sentence(&self) -> String {
-        let Unit { telegrams, requests, answered, unanswered, damaged, refused, median, worst, .. } = self.unit;
-        let device =
-            if self.device.is_empty() { String::new() } else { format!(" ({})", self.device) };
+        let Unit { telegrams, requests, answered, unanswered, damaged, refused, median, worst, .. } =
+            self.unit;
+        let device = if self.device.is_empty() { String::new() } else { format!(" ({})", self.device) };
         let mut parts = vec![match requests {
             0 => many(telegrams, "telegram"),
-            _ if answered == requests && requests > 1 => format!("{}, all answered", many(requests, "request")),
+            _ if answered == requests && requests > 1 => {
+                format!("{}, all answered", many(requests, "request"))
+            }
             _ => format!("{}, {} answered", many(requests, "request"), grouped(answered)),
         }];
         for (n, word) in [(unanswered, "unanswered"), (damaged, "damaged"), (refused, "rejected")] {
@@ -453,7 +452,8 @@ mod tests {
         assert!(html.contains("<b>&lt;b&gt;&quot;a&quot; &amp; b.log</b>: 1 telegram"), "{html}");
         for tag in ["p", "ol", "ul", "table", "tr", "td", "th", "div", "b", "code", "li"] {
             let ends = html.matches(&format!("</{tag}>")).count();
-            let begins = html.matches(&format!("<{tag}>")).count() + html.matches(&format!("<{tag} ")).count();
+            let begins =
+                html.matches(&format!("<{tag}>")).count() + html.matches(&format!("<{tag} ")).count();
             assert_eq!(begins, ends, "{tag}");
         }
     }

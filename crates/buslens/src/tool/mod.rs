@@ -41,7 +41,7 @@ pub use detail::Detail;
 pub use editor::{Answer, Editor};
 pub use entries::{Change, Entries};
 pub use explain::Explanation;
-pub use log::{decode, decode_file};
+pub use log::{decode, decode_file, decode_pasted};
 pub use offers::{Offer, offers};
 pub use proposals::{Proposal, proposals};
 pub use replies::{Reply, replies};

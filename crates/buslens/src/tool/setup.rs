@@ -460,7 +460,10 @@ mod tests {
         name_unit(&mut settings, 3, Profile::of("keb-f5-modbus"));
         name_unit(&mut settings, 1, Profile::of("memograph-rsg45"));
         let said: Vec<String> = differences(&settings).iter().map(|it| it.said.sentence()).collect();
-        assert_eq!(said, ["Unit 1 is Endress+Hauser Memograph M RSG45", "Unit 3 is KEB COMBIVERT F5 on Modbus"]);
+        assert_eq!(
+            said,
+            ["Unit 1 is Endress+Hauser Memograph M RSG45", "Unit 3 is KEB COMBIVERT F5 on Modbus"]
+        );
         let text = write(&settings);
         assert!(text.contains("units.1.unit = 3\nunits.1.device = 1\n"), "{text}");
         assert_eq!(read(&text).unwrap().units, settings.units);

@@ -23,8 +23,7 @@ impl Log {
             text: finding.text.sentence() + ".",
             telegrams: finding.evidence.len(),
         };
-        let mut remarks: Vec<String> =
-            self.remarks().iter().map(|remark| remark.sentence() + ".").collect();
+        let mut remarks: Vec<String> = self.remarks().iter().map(|remark| remark.sentence() + ".").collect();
         remarks.extend(overview.fault);
         Digest {
             title: String::new(),
@@ -33,7 +32,10 @@ impl Log {
             remarks,
             findings: findings.iter().map(finding).collect(),
             units: units.collect(),
-            telegrams: chosen.iter().filter_map(|(index, times)| self.in_a_line(source, *index, *times)).collect(),
+            telegrams: chosen
+                .iter()
+                .filter_map(|(index, times)| self.in_a_line(source, *index, *times))
+                .collect(),
             of,
             wrong: true,
         }
@@ -74,12 +76,11 @@ impl Log {
         let of = groups.len();
         let mut chosen: Vec<(u32, usize)> = Vec::new();
         // What is not wrong by itself shows something by what it became.
-        let is_wrong = |index: &&u32| {
-            entries.get(**index as usize).is_some_and(|entry| self.state(entry).is_wrong())
-        };
-        let shown = findings.iter().filter_map(|finding| {
-            finding.evidence.iter().find(is_wrong).or(finding.evidence.last())
-        });
+        let is_wrong =
+            |index: &&u32| entries.get(**index as usize).is_some_and(|entry| self.state(entry).is_wrong());
+        let shown = findings
+            .iter()
+            .filter_map(|finding| finding.evidence.iter().find(is_wrong).or(finding.evidence.last()));
         for index in shown {
             let event = entries.get(*index as usize).and_then(|entry| self.event(entry));
             let group = event.and_then(|event| groups.remove(&event)).unwrap_or((*index, 1));

@@ -355,7 +355,12 @@ impl<'a> Desk<'a> {
         self.met.retain(|it| it.from != it.to);
         for (unit, (new, times)) in std::mem::take(&mut self.units) {
             if times > 0 && unit != new {
-                self.met.push(Replaced { kind: Kind::Unit, from: unit.to_string(), to: new.to_string(), times });
+                self.met.push(Replaced {
+                    kind: Kind::Unit,
+                    from: unit.to_string(),
+                    to: new.to_string(),
+                    times,
+                });
             }
         }
         self.met.sort_by_key(|it| it.kind);
@@ -411,7 +416,8 @@ impl<'a> Desk<'a> {
         let detail = wants_detail.then(|| report.detail(place)).flatten();
         let leaves = detail.as_ref().map_or(Vec::new(), |detail| field::leaves(&detail.fields));
         let units = if fdl {
-            let is_address = |leaf: &&&Field| leaf.spec.role == Means::Unit && !leaf.spec.key.contains("group");
+            let is_address =
+                |leaf: &&&Field| leaf.spec.role == Means::Unit && !leaf.spec.key.contains("group");
             leaves.iter().filter(is_address).map(|leaf| leaf.span).filter(|span| span.len() == 1).collect()
         } else if protocol.is(&modbus_tcp::PROTOCOL) {
             vec![Span::new(6, 7)]
@@ -577,7 +583,8 @@ impl<'a> Desk<'a> {
             return Some((word.len(), self.card(word)));
         }
         let address = word.parse::<std::net::Ipv6Addr>().ok()?;
-        (!address.is_loopback() && !address.is_unspecified()).then(|| (word.len(), self.regrouped(word, ':', 16)))
+        (!address.is_loopback() && !address.is_unspecified())
+            .then(|| (word.len(), self.regrouped(word, ':', 16)))
     }
 
     /// Each group of an address replaced by one of as many digits; the same behind the same groups.
@@ -756,7 +763,8 @@ fn words(part: &[u8], is: fn(u8) -> bool) -> Vec<Span> {
 /// Numbers behind words that say that they are units.
 fn named_units(part: &[u8]) -> Vec<(Span, u8)> {
     const WORDS: [&[u8]; 10] = [
-        b"unit", b"slave", b"station", b"node", b"addr", b"address", b"device", b"unitid", b"slaveid", b"server",
+        b"unit", b"slave", b"station", b"node", b"addr", b"address", b"device", b"unitid", b"slaveid",
+        b"server",
     ];
     let mut found = Vec::new();
     let mut at = 0;
