@@ -199,7 +199,7 @@ impl Report {
 /// Bytes, label, value and meaning of a field and of those within it.
 fn add_rows(field: &Field, bytes: &[u8], depth: usize, rows: &mut Vec<[String; 4]>) {
     let meaning = field.meaning().map_or(String::new(), |meaning| meaning.to_string());
-    let label = format!("{}{}", "\u{2003}".repeat(depth), field.label().sentence());
+    let label = format!("{}{}", "  ".repeat(depth), field.label().sentence());
     rows.push([hex(field.span.of(bytes)), label, field.value_text(), meaning]);
     field.children.iter().for_each(|child| add_rows(child, bytes, depth + 1, rows));
 }
@@ -299,7 +299,7 @@ impl Digest {
                 .fields
                 .iter()
                 .map(|[bytes, label, value, meaning]| {
-                    vec![code(bytes), escaped(label), escaped(value), escaped(meaning)]
+                    vec![code(bytes), indented(label), escaped(value), escaped(meaning)]
                 })
                 .collect();
             let heads = ["Bytes", "Field", "Value", "Meaning"];
@@ -393,7 +393,7 @@ fn milliseconds(micros: u32) -> String {
 }
 
 /// Text in columns of their own width.
-fn columns(rows: &[[String; 4]]) -> Vec<String> {
+pub(super) fn columns(rows: &[[String; 4]]) -> Vec<String> {
     /// Longer runs of bytes have no column of their own.
     const WIDEST: usize = 24;
     let width = |column: usize| {
@@ -422,6 +422,12 @@ fn table(heads: &[&str], rows: &[Vec<String>]) -> String {
 
 fn code(text: &str) -> String {
     format!("<code>{}</code>", escaped(text))
+}
+
+/// A label whose place in the tree its spaces say.
+fn indented(label: &str) -> String {
+    let plain = label.trim_start();
+    format!("{}{}", "&emsp;".repeat((label.len() - plain.len()) / 2), escaped(plain))
 }
 
 /// Text that is no markup.
