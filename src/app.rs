@@ -14,7 +14,7 @@ use crate::browser::typing::is_typed_into;
 use crate::components::foot::{AboutIsOpen, Foot};
 use crate::components::header::Header;
 use crate::components::toast::{ToastList, Toasts};
-use crate::later::{Later, LaterView, Part};
+use crate::later::{Later, LaterPiece, Part, Piece};
 use crate::views::devices::{Borrowed, DeviceSettings};
 use crate::views::read::{Read, ReadState};
 use crate::views::sheet::SheetState;
@@ -92,7 +92,10 @@ pub fn App() -> impl IntoView {
     };
     let view = move || match address.view() {
         View::Read => view! { <Read /> }.into_any(),
-        view => view! { <LaterView part=Part::Views view /> }.into_any(),
+        View::Build => view! { <LaterPiece piece=Piece::Build /> }.into_any(),
+        View::Check => view! { <LaterPiece piece=Piece::Check /> }.into_any(),
+        View::Devices => view! { <LaterPiece piece=Piece::Devices /> }.into_any(),
+        View::Sheet => view! { <LaterPiece piece=Piece::Sheet /> }.into_any(),
     };
     view! {
         <div class="app" on:dragover=|event| event.prevent_default() on:drop=dropped>

@@ -280,8 +280,8 @@ impl Page {
             tokio::time::sleep(Duration::from_millis(25)).await;
             let found = std::fs::read_dir(&folder)?.flatten().map(|entry| entry.path());
             let whole = |path: &PathBuf| {
-                path.extension()
-                    .is_some_and(|it| ["txt", "csv", "jsonl", "html"].iter().any(|known| it == *known))
+                let ends = ["txt", "csv", "jsonl", "html", "pcapng", "log"];
+                path.extension().is_some_and(|it| ends.iter().any(|end| it == *end))
             };
             if let Some(path) = found.into_iter().find(whole) {
                 return Ok(path);
@@ -294,6 +294,14 @@ impl Page {
         self.settle().await?;
         let script =
             "navigator.clipboard.readText().then(arguments[0], (error) => arguments[0](String(error)))";
+        self.driver.execute_async(script, vec![]).await?.convert()
+    }
+
+    /// What is on the clipboard for programs that show HTML.
+    pub async fn clipboard_html(&self) -> Result<String> {
+        self.settle().await?;
+        let script = "navigator.clipboard.read().then(([item]) => item.getType('text/html')).then((it) => it.text())\
+                      .then(arguments[0], (error) => arguments[0](String(error)))";
         self.driver.execute_async(script, vec![]).await?.convert()
     }
 

@@ -25,9 +25,9 @@ async fn find(page: &Page, text: &str, label: &str) -> Result {
 async fn a_channel_is_written_in_the_words_of_the_manual() -> Result {
     let page = Page::open_at("#/build", DESKTOP, false).await?;
     find(&page, "215 write", "Write Universal channel at 200 to 319").await?;
-    for (field, text) in [("Number", "6"), ("Status", "good"), ("Value", "123.456")] {
-        page.fill_in(field, text).await?;
-    }
+    page.fill_in("Number", "6").await?;
+    page.tick_option("Good").await?;
+    page.fill_in("Value", "123.456").await?;
     // Section 2.6.1 of the manual prints these bytes.
     assert_eq!(page.bytes_in(REQUEST).await?, "01 10 00 D7 00 03 06 00 80 42 F6 E9 79 28 15");
     assert_eq!(page.bytes_in(REPLY).await?, "01 10 00 D7 00 03 30 30");

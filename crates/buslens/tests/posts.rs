@@ -3,6 +3,9 @@
 //! The truth beside an input lists its telegrams: the bytes, who speaks (`unknown` accepts any), and the
 //! `check`: right, wrong, or none where no check bytes were printed. Nothing else may be reported.
 
+mod changes;
+mod random;
+
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
@@ -145,4 +148,102 @@ fn what_is_around_the_lines_changes_nothing() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// What a text says besides its bytes, and how they are written, is another thing in each post.
+#[test]
+fn other_words_times_and_blanks_change_nothing() {
+    /// Changes a text and none of its telegrams.
+    type Way = fn(&str, changes::Random) -> String;
+    let ways: [(&str, Way); 6] = [
+        ("words", changes::other_words),
+        ("times", changes::other_times),
+        ("case", changes::other_case),
+        ("line ends", changes::other_ends),
+        ("beginnings of lines", changes::other_beginnings),
+        ("separators", changes::other_separators),
+    ];
+    let mut wrong = Vec::new();
+    let mut tried = 0;
+    for post in posts() {
+        let Ok(text) = std::str::from_utf8(&post.input) else { continue };
+        for (way, change) in ways {
+            for seed in 0..3 {
+                let changed = change(text, &mut random::random(seed));
+                let report =
+                    decode_file(changed.as_bytes(), &Reading::default(), Options::default()).unwrap();
+                let faults = faults(&report, &post.telegrams);
+                tried += 1;
+                if !faults.is_empty() {
+                    wrong.push(format!("{}, other {way} ({seed}): {}", post.name, faults.join("; ")));
+                }
+            }
+        }
+    }
+    println!("{} of {tried} changed posts are right", tried - wrong.len());
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Other units and data, with checks made right again, wherever a telegram stands in hex digits.
+#[test]
+fn other_bytes_are_found_as_well() {
+    let mut wrong = Vec::new();
+    let mut tried = 0;
+    for post in posts() {
+        let Ok(text) = std::str::from_utf8(&post.input) else { continue };
+        // What has no check of its own would need the same change.
+        if post.telegrams.iter().any(|it| it.check != "right") {
+            continue;
+        }
+        for seed in 0..6 {
+            let mut random = random::random(seed);
+            let units: [u8; 256] = std::array::from_fn(|_| 1 + random(31) as u8);
+            let mut changed = text.to_owned();
+            let mut known: Vec<(String, String)> = Vec::new();
+            let mut truth = Vec::new();
+            for wanted in &post.telegrams {
+                let old = bytes_of(&wanted.bytes);
+                let new = match known.iter().find(|(old, _)| *old == wanted.bytes) {
+                    Some((_, new)) => new.clone(),
+                    None if wanted.check == "right" && is_rtu(&old) => {
+                        let new = changes::other_bytes(&old, &units, &mut random);
+                        let replaced = changes::replaced(&changed, &old, &new);
+                        // In another notation it stays what it is.
+                        let new = if replaced == changed { wanted.bytes.clone() } else { hex(&new) };
+                        known.push((wanted.bytes.clone(), new.clone()));
+                        changed = replaced;
+                        new
+                    }
+                    None => wanted.bytes.clone(),
+                };
+                truth.push(Truth {
+                    bytes: new,
+                    direction: wanted.direction.clone(),
+                    check: wanted.check.clone(),
+                });
+            }
+            if known.is_empty() || known.iter().any(|(old, new)| old == new) {
+                continue;
+            }
+            tried += 1;
+            let report = decode_file(changed.as_bytes(), &Reading::default(), Options::default()).unwrap();
+            let mut faults = faults(&report, &truth);
+            // A second notation was not changed with the first.
+            faults.retain(|fault| !known.iter().any(|(old, _)| fault.ends_with(old.as_str())));
+            if !faults.is_empty() {
+                wrong.push(format!("{} ({seed}): {}", post.name, faults.join("; ")));
+            }
+        }
+    }
+    println!("{} of {tried} posts with other bytes are right", tried - wrong.len());
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+fn bytes_of(hex: &str) -> Vec<u8> {
+    hex.split(' ').map(|byte| u8::from_str_radix(byte, 16).unwrap()).collect()
+}
+
+/// Whether the check of a telegram is the CRC of Modbus.
+fn is_rtu(telegram: &[u8]) -> bool {
+    telegram.len() > 3 && buslens::walk::CRC_16_MODBUS.wire(telegram) == 0
 }

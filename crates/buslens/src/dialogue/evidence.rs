@@ -44,6 +44,8 @@ pub struct Reading {
     pub bits: i32,
     /// Bytes are missing at its end.
     pub cut: bool,
+    /// Its bits count on the request before it.
+    pub awaited: bool,
 }
 
 /// Its place: it answers a request, or is answered.
@@ -100,8 +102,10 @@ pub fn company(pieces: usize, proven: usize, alike: usize) -> i32 {
 pub fn reading(bytes: &[u8], splitter: &Splitter, waiting: Option<Waiting>) -> Option<Reading> {
     let readings = [
         damaged(bytes, splitter),
-        awaited(bytes, waiting),
+        of_another_length(bytes, splitter),
+        awaited(bytes, splitter, waiting),
         unchecked(bytes, splitter),
+        of_ascii(bytes, splitter),
         pdu(bytes, splitter),
         cut(bytes, splitter, waiting),
         over_tcp(bytes, splitter),
@@ -117,44 +121,49 @@ pub fn ascii(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
     let pdu = modbus_ascii::ASCII.pdu_bytes(bytes);
     let fits = structure(pdu, splitter).or_else(|| splitter.knows(*bytes.get(1)?).then_some(0));
     let bits = COLON + unit(*bytes.first()?) + fits? + WRONG;
-    Some(Reading { protocol: &modbus_ascii::PROTOCOL, verdict: Verdict::Wrong, from: 0, bits, cut: false })
+    Some(whole(&modbus_ascii::PROTOCOL, Verdict::Wrong, bits))
 }
 
 /// Bytes that are the characters of a frame of Modbus ASCII, whatever it holds.
 pub fn characters(bytes: &[u8]) -> Reading {
     /// A colon and hex digits only.
     const CHARACTERS: i32 = 10;
-    let verdict = verdict(&modbus_ascii::PROTOCOL, bytes);
-    Reading { protocol: &modbus_ascii::PROTOCOL, verdict, from: 0, bits: CHARACTERS, cut: false }
+    whole(&modbus_ascii::PROTOCOL, verdict(&modbus_ascii::PROTOCOL, bytes), CHARACTERS)
+}
+
+/// All bytes are one telegram.
+fn whole(protocol: &'static Protocol, verdict: Verdict, bits: i32) -> Reading {
+    Reading { protocol, verdict, from: 0, bits, cut: false, awaited: false }
 }
 
 fn damaged(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
     let pdu = modbus_rtu::RTU.pdu_bytes(bytes);
-    let bits = unit(*bytes.first()?) + structure(pdu, splitter)? + WRONG;
-    Some(Reading {
-        protocol: &modbus_rtu::PROTOCOL,
-        verdict: verdict(&modbus_rtu::PROTOCOL, bytes),
-        from: 0,
-        bits,
-        cut: false,
-    })
+    // What damaged it may be in its numbers.
+    let bits = unit(*bytes.first()?) + function(*pdu.first()?) + numbers(pdu, splitter)?.max(0) + WRONG;
+    Some(whole(&modbus_rtu::PROTOCOL, verdict(&modbus_rtu::PROTOCOL, bytes), bits))
+}
+
+/// Bytes with a right check whose length is not that of their function.
+fn of_another_length(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
+    let [first, code, _, _, ..] = *bytes else { return None };
+    let checked = verdict(&modbus_rtu::PROTOCOL, bytes) == Verdict::Right && splitter.knows(code);
+    checked.then(|| whole(&modbus_rtu::PROTOCOL, Verdict::Right, unit(first) + function(code)))
 }
 
 /// A response that is awaited, whatever is wrong with it: unit and function are those of the request.
-fn awaited(bytes: &[u8], waiting: Option<Waiting>) -> Option<Reading> {
+fn awaited(bytes: &[u8], splitter: &Splitter, waiting: Option<Waiting>) -> Option<Reading> {
     let waiting = waiting?;
     let longest = waiting.length.map_or(modbus_rtu::RTU.longest(), |length| usize::from(length) + 4);
     let begins =
         matches!(bytes, [unit, code, ..] if *unit == waiting.unit && code & !EXCEPTION == waiting.function);
     let bits = CONVERSATION + function(waiting.function) + WRONG;
     let fits = begins && (modbus_rtu::RTU.shortest()..=longest).contains(&bytes.len());
-    fits.then(|| Reading {
-        protocol: &modbus_rtu::PROTOCOL,
-        verdict: verdict(&modbus_rtu::PROTOCOL, bytes),
-        from: 0,
-        bits,
-        cut: false,
-    })
+    // All of it is there but a check.
+    let reading = match splitter.sides(bytes.get(1..)?) {
+        [false, false] => whole(&modbus_rtu::PROTOCOL, verdict(&modbus_rtu::PROTOCOL, bytes), bits),
+        _ => without_check(0, bits, false),
+    };
+    fits.then_some(Reading { awaited: true, ..reading })
 }
 
 /// What its check says of bytes that are read as of `protocol`.
@@ -173,7 +182,17 @@ fn unchecked(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
 }
 
 fn without_check(from: usize, bits: i32, cut: bool) -> Reading {
-    Reading { protocol: &modbus_unchecked::PROTOCOL, verdict: Verdict::NoCheck, from, bits, cut }
+    Reading { from, cut, ..whole(&modbus_unchecked::PROTOCOL, Verdict::NoCheck, bits) }
+}
+
+/// The bytes that a frame of Modbus ASCII stands for, with a right LRC.
+fn of_ascii(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
+    /// Of 256 other bytes one is right.
+    const LRC: i32 = 8;
+    let checked = modbus_ascii::ASCII.verdict(bytes) == Verdict::Right;
+    let inside = structure(modbus_ascii::ASCII.pdu_bytes(bytes), splitter).filter(|_| checked)?;
+    let bits = unit(*bytes.first()?) + inside + LRC;
+    Some(whole(&modbus_ascii::PROTOCOL, Verdict::Right, bits))
 }
 
 fn pdu(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
@@ -181,13 +200,7 @@ fn pdu(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
     const SHORTEST: usize = 5;
     let bits = structure(bytes, splitter).filter(|_| bytes.len() >= SHORTEST)?;
     // Whatever could be a PDU is more likely one with its unit.
-    Some(Reading {
-        protocol: &modbus_pdu::PROTOCOL,
-        verdict: Verdict::NoCheck,
-        from: 0,
-        bits: bits - 1,
-        cut: false,
-    })
+    Some(whole(&modbus_pdu::PROTOCOL, Verdict::NoCheck, bits - 1))
 }
 
 /// A telegram whose end is missing: the request that waits tells it, or its byte count.
@@ -204,7 +217,7 @@ fn cut(bytes: &[u8], splitter: &Splitter, waiting: Option<Waiting>) -> Option<Re
         };
         if let Some(from) = (0..=STRAY.min(bytes.len().saturating_sub(2))).find(awaited) {
             let bits = CONVERSATION + function(waiting.function);
-            return Some(without_check(from, bits, true));
+            return Some(Reading { awaited: true, ..without_check(from, bits, true) });
         }
     }
     let [first, code, count, ..] = *bytes else { return None };
@@ -239,33 +252,35 @@ fn is_cut(bytes: &[u8], missing: usize, stray: bool) -> bool {
 
 /// A frame of Modbus TCP whose length is wrong.
 fn over_tcp(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
+    /// Nothing but its function says that it is one.
+    const UNTOLD: i32 = -4;
     let pdu = bytes.get(modbus_tcp::HEADER..)?;
-    let [_, _, 0, 0, 0 | 1, _, ..] = *bytes else { return None };
+    let [high, low, 0, 0, 0 | 1, _, ..] = *bytes else { return None };
+    // Zeros are not rare, but those behind a number are.
+    let header = if (high, low) == (0, 0) { 4 } else { 12 };
     let length = usize::from(u16::from_be_bytes([bytes[4], bytes[5]]));
     // Nearly right: a slip, or bytes that are missing.
-    let near = length.abs_diff(bytes.len() - 6) <= 4;
+    let near = length.abs_diff(bytes.len() - 6) <= 4 && pdu.len() > 1;
     let cut = length > bytes.len() - 6;
-    let inside = structure(pdu, splitter).or((cut && splitter.knows(*pdu.first()?)).then_some(0))?;
-    let bits = 12 + if near { 8 } else { 0 } + inside + CUT;
-    (length > 2 && (near || cut)).then_some(Reading {
-        protocol: &modbus_tcp::PROTOCOL,
-        verdict: Verdict::NoCheck,
-        from: 0,
-        bits,
-        cut,
-    })
+    let inside = structure(pdu, splitter).or((cut && splitter.knows(*pdu.first()?)).then_some(UNTOLD))?;
+    let bits = header + if near { 8 } else { 0 } + inside + CUT;
+    let reading = whole(&modbus_tcp::PROTOCOL, Verdict::NoCheck, bits);
+    (length > 2 && (near || cut)).then_some(Reading { cut, ..reading })
 }
 
 /// A frame of PROFIBUS whose sum is wrong or whose end is missing.
 fn over_profibus(bytes: &[u8]) -> Option<Reading> {
     use profibus_fdl::{Fdl, PROTOCOL, SD2};
-    let reading = |bits, verdict, cut| Some(Reading { protocol: &PROTOCOL, verdict, from: 0, bits, cut });
+    let reading = |bits, verdict, cut| Some(Reading { cut, ..whole(&PROTOCOL, verdict, bits) });
     let ends = bytes.last() == Some(&profibus_fdl::END);
     match (bytes, Fdl::length(bytes)) {
         ([SD2, a, b, SD2, ..], Some(length)) if a == b && length == bytes.len() => {
             reading(24 + WRONG, verdict(&PROTOCOL, bytes), false)
         }
-        ([SD2, a, b, SD2, ..], Some(length)) if a == b && length > bytes.len() && !ends => {
+        // M-Bus begins its frames in the same way, but has other codes where a control byte is.
+        ([SD2, a, b, SD2, _, _, control, ..], Some(length))
+            if a == b && length > bytes.len() && !ends && Fdl::is_control(*control) =>
+        {
             let checked = verdict(&PROTOCOL, bytes) == Verdict::Right;
             reading(16 + CUT, if checked { Verdict::Right } else { Verdict::Unchecked }, true)
         }
@@ -295,7 +310,16 @@ fn function(function: u8) -> i32 {
 
 /// How much a PDU looks like one: its function is known, its length fits, its numbers can be.
 pub(super) fn structure(pdu: &[u8], splitter: &Splitter) -> Option<i32> {
+    Some(function(*pdu.first()?) + numbers(pdu, splitter)?)
+}
+
+/// How much the numbers of a PDU look so; `None` where its length does not fit.
+fn numbers(pdu: &[u8], splitter: &Splitter) -> Option<i32> {
     const UNLIKELY: i32 = -6;
+    /// The highest sub-function of function 8.
+    ///
+    /// Source: Modbus application protocol V1.1b3, section 6.8.
+    const LAST_DIAGNOSIS: u32 = 20;
     let code = *pdu.first()?;
     let [asks, answers] = splitter.sides(pdu);
     if !asks && !answers {
@@ -320,6 +344,8 @@ pub(super) fn structure(pdu: &[u8], splitter: &Splitter) -> Option<i32> {
             }
         }
         6 => 0,
+        // Of a diagnosis, the sub-function says what it is.
+        8 if number(1) > LAST_DIAGNOSIS => UNLIKELY,
         15 if u32::from(pdu.get(5).copied().unwrap_or_default()) == number(3).div_ceil(8) => 16,
         16 if u32::from(pdu.get(5).copied().unwrap_or_default()) == 2 * number(3) => 16,
         101 if u32::from(pdu.get(5).copied().unwrap_or_default()) == 4 * number(3) => 16,
@@ -340,10 +366,6 @@ pub(super) fn structure(pdu: &[u8], splitter: &Splitter) -> Option<i32> {
         }
         _ => of_request,
     };
-    let best = [(asks, of_request), (answers, of_response)]
-        .into_iter()
-        .filter(|(fits, _)| *fits)
-        .map(|(_, bits)| bits)
-        .max();
-    Some(function(code) + best.unwrap_or_default())
+    let fitting = [(asks, of_request), (answers, of_response)].into_iter().filter(|(fits, _)| *fits);
+    fitting.map(|(_, bits)| bits).max()
 }

@@ -129,6 +129,12 @@ impl Fdl {
         Some(if REQUEST.of(control.into()) == 1 { Direction::Request } else { Direction::Response })
     }
 
+    /// Whether a frame control byte has a function of its direction.
+    pub fn is_control(control: u8) -> bool {
+        let functions = if REQUEST.of(control.into()) == 1 { &FUNCTION } else { &ANSWER };
+        control & 0x80 == 0 && functions.name(functions.of(control.into())).is_some()
+    }
+
     /// How long the frame is that begins with `bytes`, of which the end may be missing; `None` if
     /// no frame begins so, or if the length of an SD2 is not there yet.
     ///

@@ -221,7 +221,9 @@ impl Splitter {
         }
         let [_, _, _, _, high, low, _, function, ..] = *bytes else { return more };
         let length = 6 + usize::from(u16::from_be_bytes([high, low]));
-        if length <= modbus_tcp::HEADER || length > modbus_tcp::LONGEST || function & !EXCEPTION == 0 {
+        // There is no function 0, but a device may answer so to a request with a number.
+        let none = function & !EXCEPTION == 0 && bytes[..2] == [0, 0];
+        if length <= modbus_tcp::HEADER || length > modbus_tcp::LONGEST || none {
             return Begins::Nothing;
         }
         let known = self.knows(function);

@@ -35,6 +35,10 @@ enum Key {
     Cell(usize),
     FromStart(usize),
     FromEnd(usize),
+    /// Of the first numbers of each line, however many they are.
+    First,
+    /// Of the last ones.
+    Last,
 }
 
 /// A block with more lines is read in parts.
@@ -49,7 +53,9 @@ impl Columns {
         let count = scan.hex.len();
         let bars = text.iter().filter(|c| **c == b'|').count();
         let table = bars > 1;
-        if (count == 0 && !table) || count > MOST_NUMBERS || self.lines >= MOST_LINES {
+        // A line with nothing but a bar is the border of a cell.
+        let border = bars > 0 && scan.words == 0;
+        if (count == 0 && !table && !border) || count > MOST_NUMBERS || self.lines >= MOST_LINES {
             return false;
         }
         if self.lines == 0 {
@@ -71,6 +77,11 @@ impl Columns {
                     self.add(Key::FromStart(at), value, place.shifted(base));
                     if count > 1 {
                         self.add(Key::FromEnd(count - 1 - at), value, place.shifted(base));
+                    }
+                    for (key, end) in [(Key::First, scan.runs.first()), (Key::Last, scan.runs.last())] {
+                        if end.is_some_and(|end| end.first == run.first) {
+                            self.add(key, value, place.shifted(base));
+                        }
                     }
                 }
             }

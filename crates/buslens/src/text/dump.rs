@@ -1,11 +1,24 @@
 //! Rows of hex dumps: xxd, `hexdump -C`, od, Wireshark. An offset, bytes, and often the same bytes
 //! as characters.
 
-/// Follows the offsets from row to row.
+use super::words::Sender;
+
+/// Follows the offsets from row to row. A dump of a conversation counts those of each side by themselves, and
+/// something before the offset tells the two apart: `TX 0010:`, or only how far the row is indented.
 #[derive(Debug, Default)]
 pub struct Dump {
+    streams: Vec<Stream>,
+    /// The stream of the last row.
+    latest: usize,
+}
+
+/// Rows whose offsets follow each other.
+#[derive(Clone, Copy, Debug)]
+struct Stream {
+    /// What stands before the offset of each row.
+    before: u32,
     /// The offset that the next row should have.
-    next: Option<usize>,
+    next: usize,
 }
 
 /// What the offset of a row says.
@@ -17,6 +30,7 @@ pub struct Row {
     /// It goes on where the row before it ended, or further on.
     pub continues: bool,
     pub words: Words,
+    before: u32,
 }
 
 /// How the numbers of a row are written.
@@ -36,7 +50,7 @@ impl Dump {
     pub fn row(&self, line: &[u8]) -> Option<Row> {
         /// Offsets stand near the beginning.
         const FAR: usize = 80;
-        let mark = |c: &u8| matches!(c, b' ' | b'\t' | b'|' | b'>' | b'/' | b'#' | b'*' | b';');
+        let mark = |c: &u8| matches!(c, b' ' | b'\t' | b'|' | b'>' | b'/' | b'#' | b'*' | b';' | b'-');
         let first = line.iter().take_while(|c| mark(c)).count();
         if let Some(row) = self.row_at(line, first, true) {
             return Some(row);
@@ -58,6 +72,8 @@ impl Dump {
 
     /// The same with the offset at `start`; where other things are before it, it must be marked and fit.
     fn row_at(&self, line: &[u8], start: usize, alone: bool) -> Option<Row> {
+        /// So many digits have the offsets of most dumps.
+        const USUAL: usize = 8;
         // tcpdump marks its offsets.
         let start = start + if line[start..].starts_with(b"0x") { 2 } else { 0 };
         let count = line[start..].iter().take_while(|c| c.is_ascii_hexdigit()).count();
@@ -72,7 +88,8 @@ impl Dump {
         let from = end + if bar { blanks(end) } else { 0 } + usize::from(colon);
         // od parts its offset, seven digits, with one blank only.
         let od = count == 7 && !colon && blanks(from) == 1;
-        let parted = (colon && blanks(from) > 0) || (alone && (blanks(from) > 1 || od));
+        let parted =
+            (colon && blanks(from) > 0) || (alone && od) || ((alone || count == USUAL) && blanks(from) > 1);
         if !parted || !line.get(from + blanks(from)).is_some_and(u8::is_ascii_hexdigit) {
             return None;
         }
@@ -85,27 +102,41 @@ impl Dump {
         if !first.get(length).is_none_or(|c| c.is_ascii_whitespace() || matches!(c, b'-' | b'|')) {
             return None;
         }
-        let first = &first[..length];
+        // What is longer is no byte or word of a row, so that what stands before it is no offset.
+        let first = first.get(..length).filter(|first| first.len() <= 8)?;
         let octal = od && matches!(first.len(), 3 | 6) && first.iter().all(|c| (b'0'..=b'7').contains(c));
         let words = match od {
             _ if octal => Words::Octal,
             true => Words::LowFirst,
             false => Words::InOrder,
         };
-        let row = |offset, continues| Some(Row { from, offset, continues, words });
-        match self.next {
+        let before = outline(&line[..start]);
+        // A row that goes on may be indented in another way.
+        let latest = self.streams.get(self.latest);
+        let stream = match self.streams.iter().position(|stream| stream.before == before) {
+            Some(stream) => self.streams.get(stream),
+            None => latest.filter(|latest| offset > 0 && values.contains(&Some(latest.next))),
+        };
+        let in_turn = latest.is_none_or(|latest| stream.is_none_or(|stream| stream.before == latest.before));
+        let row = |offset, continues: bool| {
+            Some(Row { from, offset, continues: continues && in_turn, words, before })
+        };
+        match stream.map(|stream| stream.next) {
             _ if offset == 0 => row(0, false),
             Some(next) if values.contains(&Some(next)) => row(next, true),
             // Rows are missing.
             Some(next) if offset > next && offset.is_multiple_of(8) => row(offset, true),
-            None if offset.is_multiple_of(8) && (alone || colon) => row(offset, false),
+            None if self.streams.is_empty() && offset.is_multiple_of(8) && (alone || colon) => {
+                row(offset, false)
+            }
             _ => None,
         }
     }
 
     /// Whether a line is the offset behind the last row, which od and hexdump write by itself.
     pub fn ends(&self, line: &[u8]) -> bool {
-        let Some(next) = self.next.filter(|next| *next > 0) else { return false };
+        let latest = self.streams.get(self.latest);
+        let Some(next) = latest.map(|stream| stream.next).filter(|next| *next > 0) else { return false };
         let digits = line.trim_ascii();
         let text = std::str::from_utf8(digits).ok().filter(|_| (4..=16).contains(&digits.len()));
         text.is_some_and(|text| {
@@ -115,8 +146,34 @@ impl Dump {
 
     /// The bytes of `row` were read, so many.
     pub fn read(&mut self, row: Row, count: usize) {
-        self.next = Some(row.offset.saturating_add(count));
+        /// More are no sides of a conversation.
+        const MOST: usize = 8;
+        let stream = Stream { before: row.before, next: row.offset.saturating_add(count) };
+        let known = self.streams.iter().position(|stream| stream.before == row.before);
+        match known.or((row.continues || self.streams.len() == MOST).then_some(self.latest)) {
+            Some(at) => (self.latest, self.streams[at]) = (at, stream),
+            None => {
+                self.latest = self.streams.len();
+                self.streams.push(stream);
+            }
+        }
     }
+
+    /// Who sends `row`, where the dump has two sides: which of them asks, the telegrams tell.
+    pub fn sender(&self, row: Row) -> Option<Sender> {
+        let side = self.streams.iter().position(|stream| stream.before == row.before);
+        match side.filter(|_| self.streams.len() == 2)? {
+            0 => Some(Sender::Logger),
+            _ => Some(Sender::Other),
+        }
+    }
+}
+
+/// A number for what stands before an offset: the same for the same letters and blanks, whatever digits are among
+/// them.
+fn outline(text: &[u8]) -> u32 {
+    let kept = text.iter().filter(|c| !c.is_ascii_digit());
+    kept.fold(0x811C_9DC5, |hash, c| (hash ^ u32::from(*c)).wrapping_mul(0x0100_0193))
 }
 
 #[cfg(test)]

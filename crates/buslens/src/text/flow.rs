@@ -1,6 +1,6 @@
 //! Logs with one byte in each line, mostly with its time: what logic analysers and line monitors export.
 
-use super::line::{Numbers, Run, Scan};
+use super::line::{Numbers, Run, Scan, Start};
 
 /// What a log with one byte in each line says of time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,7 +18,7 @@ pub fn flow(text: &[u8], numbers: Option<Numbers>) -> Option<Flow> {
     let mut scan = Scan::timed(Some(unit));
     let (mut single, mut others) = (0, 0);
     for line in text.split(|c| matches!(c, b'\n' | b'\r')) {
-        scan.read(line, 0, numbers);
+        scan.read(line, Start::default(), numbers);
         match byte(&scan) {
             _ if scan.runs.iter().any(|run| run.len() > 2) => others += 1,
             Some(run) if run.len() == 1 && run.span.len() > 1 => single += 1,

@@ -131,6 +131,8 @@ pub struct Scan {
     pub slips: usize,
     /// Who speaks, by words anywhere in the line.
     pub sender: Option<(Sender, Weight)>,
+    /// The line calls for both: `Request | Response`.
+    pub both: bool,
     /// What tells several lines or connections apart: `COM8`, `ttyUSB0`, or the addresses of both ends,
     /// the client's first, whoever speaks. Empty where none is said.
     pub port: Vec<u8>,
@@ -153,6 +155,14 @@ pub struct Scan {
     hex_only: bool,
     /// Any number with a fraction is a time in units of so many microseconds.
     time_unit: Option<i64>,
+}
+
+/// Where a line begins.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Start {
+    pub from: usize,
+    /// What comes before was read already: here are bytes.
+    pub in_row: bool,
 }
 
 /// What a token's digits are.
@@ -187,11 +197,11 @@ impl Scan {
         Self { time_unit, ..Self::default() }
     }
 
-    /// Reads `line` from `from` on. `numbers` says how bytes are written, if that is known.
-    pub fn read(&mut self, line: &[u8], from: usize, numbers: Option<Numbers>) {
+    /// Reads what of `line` was not read yet. `numbers` says how bytes are written, if that is known.
+    pub fn read(&mut self, line: &[u8], Start { from, in_row }: Start, numbers: Option<Numbers>) {
         self.clear();
         self.hex_only = numbers == Some(Numbers::Hex);
-        self.in_row = from > 0;
+        self.in_row = in_row;
         let mut at = from;
         let first =
             line[from.min(line.len())..].iter().take_while(|c| c.is_ascii_whitespace()).count() + from;
@@ -260,6 +270,7 @@ impl Scan {
             self.join(line, at, to, first, PLAIN);
             return to;
         }
+        self.drop_counted(line, at);
         self.close();
         match words::sign(line, at) {
             Some((About::Sender(sender, weight), to)) => {
@@ -275,13 +286,26 @@ impl Scan {
         }
     }
 
+    /// A number with an ideograph right behind it counts something: `16进制`, `2字节`.
+    fn drop_counted(&mut self, line: &[u8], at: usize) {
+        let ideograph = (0xE4..=0xE9).contains(&line[at]);
+        let counts = |run: &Run| run.tokens == 1 && run.decimal && !run.padded && run.span.to == at;
+        if let Some(run) = self.open.take_if(|run| ideograph && counts(run)) {
+            for numbers in [&mut self.hex, &mut self.decimal] {
+                numbers.truncate(run.first);
+            }
+            self.places.truncate(run.first);
+            self.stranger();
+        }
+    }
+
     fn clear(&mut self) {
         self.hex.clear();
         self.decimal.clear();
         self.places.clear();
         self.runs.clear();
         self.port.clear();
-        (self.time, self.sender, self.open) = (None, None, None);
+        (self.time, self.sender, self.both, self.open) = (None, None, false, None);
         (self.ends, self.arrow) = ([None; 2], None);
         (self.strong, self.weak, self.words, self.words_since) = (None, None, 0, 0);
         (self.of_telegrams, self.of_leftovers, self.slips, self.column) = (false, false, 0, false);
@@ -403,6 +427,12 @@ impl Scan {
         const NEAR: usize = 32;
         let at = self.runs.partition_point(|other| other.first < run.first);
         &self.runs[at.saturating_sub(NEAR)..self.runs.len().min(at + NEAR)]
+    }
+
+    /// Whether `run` is the one byte of a short acknowledgement of PROFIBUS behind its name: `SC E5`.
+    pub fn is_acknowledgement(&self, run: &Run) -> bool {
+        const SC: u8 = 0xE5;
+        run.len() == 1 && self.hex[run.first] == SC && run.word == word_of(b"SC")
     }
 
     /// The last number of the line, in decimal; 0 if there is none.
@@ -581,7 +611,8 @@ impl Scan {
             let letters = count > 2 && !text.iter().any(|c| is_digit(*c));
             let groups = || self.open.as_ref().is_some_and(|run| run.style == Style::Contiguous);
             // Words such as "faced" are no bytes, and a row of bits is none either.
-            if (letters && !self.in_row && !(count == 4 && groups())) || (is_bits(text) && !self.in_row) {
+            let word = letters && !(count == 4 && (groups() || fills_cell(line, at, to)));
+            if !self.in_row && (word || is_bits(text)) {
                 return Token::Word;
             }
             let decimal = digits && count <= 3 && numbers != Some(Numbers::Hex);
@@ -836,6 +867,8 @@ impl Scan {
             Weight::Strong => self.strong = Some(sender),
             Weight::Weak => self.weak = Some(sender),
         }
+        let said = |sender| matches!(sender, Sender::Says(_));
+        self.both |= self.sender.is_some_and(|(other, _)| other != sender && said(other) && said(sender));
         if self.sender.is_none_or(|(_, known)| known < weight) {
             self.sender = Some((sender, weight));
         }
@@ -1028,6 +1061,8 @@ fn separator(gap: &[u8]) -> Option<u8> {
     }
     while let Some(c) = gap.get(at) {
         match c {
+            // An ellipsis: bytes are left out.
+            b'.' if gap.get(at + 1) == Some(&b'.') => return None,
             b' ' | b'\t' => blank = true,
             b'*' | b'_' | b'~' => emphasis = if emphasis == 0 { *c } else { emphasis },
             b',' | b';' | b':' | b'.' | b'-' | b'|' | b'/' | b'[' | b']' | b'<' | b'>' | b'"' | b'\''
@@ -1078,9 +1113,20 @@ fn decimal(text: &[u8]) -> Option<usize> {
     (to == text.len()).then(|| usize::try_from(value).ok()).flatten()
 }
 
-/// Whether digits are the bits of a number.
+/// Whether digits are the bits of a number: `00010000`, `0b00010000`.
 fn is_bits(text: &[u8]) -> bool {
-    matches!(text.len(), 8 | 16 | 32) && text.iter().all(|c| matches!(c, b'0' | b'1')) && text.contains(&b'1')
+    let marked = text.starts_with(b"0b") || text.starts_with(b"0B");
+    let bits = if marked { &text[2..] } else { text };
+    matches!(bits.len(), 8 | 16 | 32)
+        && bits.iter().all(|c| matches!(c, b'0' | b'1'))
+        && (marked || bits.contains(&b'1'))
+}
+
+/// Whether `at..to` is all that a cell of a table has, in capital letters: `| BDCB |`.
+fn fills_cell(line: &[u8], at: usize, to: usize) -> bool {
+    let before = line[..at].trim_ascii_end().last();
+    let behind = line[to..].trim_ascii_start().first();
+    before == Some(&b'|') && behind == Some(&b'|') && line[at..to].iter().all(u8::is_ascii_uppercase)
 }
 
 /// A number for a word: the same for the same letters, whatever digits are among them.
@@ -1192,7 +1238,7 @@ mod tests {
     /// The bytes of the longest run.
     fn read(text: &str) -> (String, Option<Sender>) {
         let mut scan = Scan::default();
-        scan.read(text.as_bytes(), 0, None);
+        scan.read(text.as_bytes(), Start::default(), None);
         let Some(run) = scan.runs.iter().max_by_key(|run| run.len()) else { return (String::new(), None) };
         // What stands before the last break is something else here.
         let from = run.breaks.of(&scan.breaks).last().map_or(0, |at| at - run.first);
@@ -1249,7 +1295,7 @@ mod tests {
     #[test]
     fn times_and_ports_are_told() {
         let mut scan = Scan::default();
-        scan.read(b"[02/03/2026 09:30:05] Written data (COM8)", 0, None);
+        scan.read(b"[02/03/2026 09:30:05] Written data (COM8)", Start::default(), None);
         assert_eq!((scan.runs.len(), scan.time.is_some(), scan.words), (0, true, 3));
         assert_eq!(scan.port, b"COM8");
     }
@@ -1258,7 +1304,7 @@ mod tests {
     fn both_directions_of_a_connection_are_one_port() {
         let mut scan = Scan::default();
         let mut read = |text: &str| {
-            scan.read(text.as_bytes(), 0, None);
+            scan.read(text.as_bytes(), Start::default(), None);
             let run = scan.runs.last().expect("bytes");
             (
                 String::from_utf8_lossy(&scan.port).into_owned(),

@@ -39,7 +39,7 @@ pub use words::Sender;
 use crate::field::{Facts, Span};
 use columns::Columns;
 use dump::{Dump, Words};
-use line::{Run, Scan};
+use line::{Run, Scan, Start};
 use words::Weight;
 
 /// How a text is to be read.
@@ -49,6 +49,8 @@ pub struct Form {
     pub numbers: Option<Numbers>,
     /// The first number counts the bytes behind it, see [`counted`].
     pub counted: bool,
+    /// Every line begins with a mark of a quotation, see [`quoted`].
+    pub quoted: bool,
     /// Each line has one byte.
     pub flow: Option<Flow>,
     /// What a person marked in one line.
@@ -238,7 +240,8 @@ impl Reader {
 
     fn read(&mut self, line: &[u8], sink: &mut dyn FnMut(Event<'_>)) {
         self.line += u32::from(!self.long);
-        if line.trim_ascii().is_empty() {
+        let quote = if self.form.quoted && !self.long { quote(line) } else { 0 };
+        if line[quote..].trim_ascii().is_empty() {
             self.end_list(sink);
             return self.end_columns(sink);
         }
@@ -247,11 +250,13 @@ impl Reader {
             return;
         }
         let marked = self.form.marks.as_ref().and_then(|marks| marks.bytes_from(line));
-        let from = row.map_or(0, |row| row.from).max(marked.unwrap_or(0));
+        let begins = row.map_or(0, |row| row.from).max(marked.unwrap_or(0));
         let words = row.map(|row| row.words);
         match words {
-            Some(Words::Octal) => self.scan.read_octal(line, from),
-            _ => self.scan.read(line, from, self.form.numbers),
+            Some(Words::Octal) => self.scan.read_octal(line, begins),
+            _ => {
+                self.scan.read(line, Start { from: begins.max(quote), in_row: begins > 0 }, self.form.numbers)
+            }
         }
         if self.form.counted {
             self.scan.drop_counts();
@@ -283,9 +288,10 @@ impl Reader {
             let Some(run) = self.scan.runs.first().copied() else {
                 return self.without_bytes(line, time, sink);
             };
-            let context = Context { time, joins: row.continues, dumped: true, ..Context::default() };
-            self.emit(line, &run, context, sink);
-            return self.dump.read(row, run.len());
+            self.dump.read(row, run.len());
+            let sender = self.dump.sender(row);
+            let context = Context { time, joins: row.continues, dumped: true, sender, ..Context::default() };
+            return self.emit(line, &run, context, sink);
         }
         self.runs(line, time, marked.is_some(), sink);
     }
@@ -296,13 +302,11 @@ impl Reader {
         let runs = self.scan.runs.iter().filter(|run| run.span.len() > 1).count().max(1);
         let bare = self.scan.words == 0 && self.scan.time.is_none() && runs == 1;
         let joined = self.header.as_ref().is_some_and(|header| header.row > 0) && bare;
-        let several = self.scan.runs.iter().filter(|run| run.len() >= SHORTEST).count();
-        if several == 0 && !marked && !joined {
-            let taken = !self.long && self.columns.take(line, &self.scan, self.line, self.offset);
-            if !taken {
-                self.end_columns(sink);
-            }
-        } else {
+        let several = self.scan.runs.iter().any(|run| run.len() >= SHORTEST);
+        // The cells of a row of a table may be a run, too.
+        let table = || memchr::memchr_iter(b'|', line).nth(1).is_some();
+        let row = !self.long && !marked && !joined && (!several || table());
+        if !row || !self.columns.take(line, &self.scan, self.line, self.offset) {
             self.end_columns(sink);
         }
         let last = self.scan.runs.last().map(|run| run.span);
@@ -320,13 +324,15 @@ impl Reader {
             let short = run.len() < SHORTEST || (number && run.len() == SHORTEST);
             let two = run.span.len() > 1;
             let said = run.said && run.sender.is_some_and(|(_, weight)| weight == Weight::Strong);
-            let rest = short && !marked && (bare && two || said || ends && is_labelled(line, &run));
+            let named = self.scan.is_acknowledgement(&run);
+            let rest = short && !marked && (bare && two || said || named || ends && is_labelled(line, &run));
             if short && !rest && !marked {
                 continue;
             }
             given |= !short || marked || bare;
             placed |= bare || marked || run.said || is_labelled(line, &run);
-            let context = Context { time, joins: self.long || joined, dumped: marked, bare, rest };
+            let context =
+                Context { time, joins: self.long || joined, dumped: marked, bare, rest, sender: None };
             self.emit(line, &run, context, sink);
         }
         self.marked_bytes(time, sink);
@@ -368,7 +374,7 @@ impl Reader {
             sender: self.scan.sender.map(|(sender, _)| sender),
             port: None,
             joins: false,
-            facts: Facts { column: true, ..Facts::default() },
+            facts: Facts { column: true, marked: true, ..Facts::default() },
         }));
     }
 
@@ -413,7 +419,7 @@ impl Reader {
                 .time
                 .or(header.and_then(|header| header.time))
                 .or(self.remembered.filter(|_| context.dumped || context.bare)),
-            sender: marks.or(sender),
+            sender: marks.or(sender).or(context.sender),
             port: (!port.is_empty()).then_some(port),
             joins: context.joins,
             facts,
@@ -427,7 +433,7 @@ impl Reader {
         if self.long {
             return;
         }
-        let sender = self.scan.sender.map(|(sender, _)| sender);
+        let sender = self.scan.sender.filter(|_| !self.scan.both).map(|(sender, _)| sender);
         let heading = line.trim_ascii_end().ends_with(b":");
         let number = self.scan.last_number(line);
         let heads = (sender.is_some() && self.scan.words <= WORDS) || heading;
@@ -564,6 +570,8 @@ struct Context {
     dumped: bool,
     bare: bool,
     rest: bool,
+    /// Who speaks, where the text does not say it.
+    sender: Option<Sender>,
 }
 
 /// Whether what a header says is said of a line that is not bare: one without words of its own.
@@ -617,7 +625,10 @@ fn facts(line: &[u8], run: &Run, scan: &Scan) -> Facts {
     let placeholder = [b"xx", b"??", b"XX"].iter().any(|sign| behind.starts_with(*sign));
     let ellipsis =
         ["…".as_bytes(), "・・".as_bytes()].iter().any(|sign| memchr::memmem::find(near, sign).is_some());
-    let abridged = !scan.column && (((2..=4).contains(&dots) && ends) || placeholder || ellipsis);
+    // `0103…C40B`: what is before the ellipsis lacks its end, and what is behind it its beginning.
+    let glued = line[run.span.to..].starts_with(b"..") || line[..run.span.from].ends_with(b"..");
+    let dotted = (2..=4).contains(&dots) && ends;
+    let abridged = !scan.column && (dotted || glued || placeholder || ellipsis);
     let shape = run.word ^ (u32::from(lead) << 24) ^ (run.style as u32 + 1).wrapping_mul(0x9E37_79B1);
     Facts {
         labelled: is_labelled(line, run),
@@ -691,6 +702,21 @@ pub fn recognise(text: &[u8]) -> Recognised {
     Recognised { layout, numbers, style, with_bytes, telling, dumped }
 }
 
+/// Whether each line of a text is quoted: `> 01 03`.
+pub fn quoted(text: &[u8]) -> bool {
+    const ENOUGH: usize = 1 << 14;
+    const LEAST: usize = 3;
+    let text = &text[..text.len().min(ENOUGH)];
+    let mut lines = text.split(|c| matches!(c, b'\n' | b'\r')).filter(|line| !line.trim_ascii().is_empty());
+    lines.clone().nth(LEAST - 1).is_some() && lines.all(|line| line.starts_with(b">"))
+}
+
+/// How long the marks are that quote a line.
+fn quote(line: &[u8]) -> usize {
+    let marks = line.iter().take_while(|c| matches!(c, b'>' | b' ')).count();
+    line[..marks].iter().rposition(|c| *c == b'>').map_or(0, |last| last + 1)
+}
+
 /// Whether each line's first number counts the bytes behind it, with nothing else to tell it from
 /// them: `8 01 03 00 C8 00 03 84 35`.
 pub fn counted(text: &[u8], numbers: Option<Numbers>) -> bool {
@@ -701,7 +727,7 @@ pub fn counted(text: &[u8], numbers: Option<Numbers>) -> bool {
     let mut scan = Scan::default();
     let (mut least, mut most) = (usize::MAX, 0);
     for line in text[..end].split(|c| matches!(c, b'\n' | b'\r')) {
-        scan.read(line, 0, numbers);
+        scan.read(line, Start::default(), numbers);
         let Some(run) = scan.runs.iter().filter(|run| run.len() >= SHORTEST).max_by_key(|run| run.len())
         else {
             continue;
@@ -723,7 +749,7 @@ fn numbers(text: &[u8]) -> (Option<Numbers>, Option<Style>) {
     let (mut hex, mut decimal) = (0, 0);
     let mut styles = [0; Style::ALL.len()];
     for line in text.split(|c| matches!(c, b'\n' | b'\r')) {
-        scan.read(line, 0, None);
+        scan.read(line, Start::default(), None);
         if let Some(run) = scan.runs.iter().max_by_key(|run| run.len()) {
             styles[run.style as usize] += run.len();
             if run.len() >= SHORTEST {

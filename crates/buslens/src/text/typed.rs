@@ -1,6 +1,6 @@
 //! What a person types: the bytes of one telegram in their text, and what is wrong with the rest of the line.
 
-use super::line::{Numbers, Scan};
+use super::line::{Numbers, Scan, Start};
 use crate::field::{Message, Severity, Span};
 use crate::message;
 
@@ -35,7 +35,7 @@ pub fn bytes(text: &str) -> Vec<u8> {
     let mut scan = Scan::default();
     let mut bytes = Vec::new();
     for line in text.lines() {
-        scan.read(line.as_bytes(), 0, Some(Numbers::Hex));
+        scan.read(line.as_bytes(), Start::default(), Some(Numbers::Hex));
         bytes.extend(scan.runs.iter().flat_map(|run| &scan.hex[run.first..run.end]));
     }
     bytes

@@ -360,6 +360,12 @@ impl Traffic {
         let lane = &mut self.lanes[index];
         lane.rows.push(row);
         lane.buffer.extend_from_slice(chunk.bytes);
+        if let Some(protocol) = self.other_way(index) {
+            self.lanes[index].carries = Carries::Protocol(protocol);
+            self.drain_buffer(index, false);
+            return false;
+        }
+        let lane = &mut self.lanes[index];
         let protocols: [&'static Protocol; 2] = [&modbus_tcp::PROTOCOL, &modbus_rtu::PROTOCOL];
         // What was captured may begin within a telegram: the next one begins with a segment.
         let begins = |protocol: &&&'static Protocol| {
@@ -389,6 +395,17 @@ impl Traffic {
             lane.rows.clear();
         }
         false
+    }
+
+    /// What the other way of a lane's connection carries, if that is known: both carry the same.
+    fn other_way(&self, index: usize) -> Option<&'static Protocol> {
+        let port = self.lanes[index].rows.first()?.port;
+        let ways = [0, 1].into_iter().filter_map(|way| self.lane_of.get(&(port, way)));
+        let other = ways.copied().find(|lane| *lane != index)?;
+        match self.lanes[other].carries {
+            Carries::Protocol(protocol) => Some(protocol),
+            _ => None,
+        }
     }
 
     /// What most telegrams of a lane are.
@@ -427,7 +444,14 @@ impl Traffic {
 
     /// Reads all that is left of a lane.
     fn close(&mut self, index: usize) {
-        let Some(lane) = self.lanes.get_mut(index) else { return };
+        if self.lanes.len() <= index {
+            return;
+        }
+        let other = if self.both_ways { self.other_way(index) } else { None };
+        let lane = &mut self.lanes[index];
+        if let (Carries::Unknown, Some(protocol)) = (lane.carries, other) {
+            lane.carries = Carries::Protocol(protocol);
+        }
         if lane.buffer.is_empty() {
             lane.rows.clear();
         } else if self.both_ways && matches!(lane.carries, Carries::Unknown) {
@@ -571,22 +595,28 @@ impl Traffic {
     /// Bytes of a stream without a right telegram: a damaged one, if they begin or end like one.
     pub(super) fn unframed(&mut self, index: usize, bytes: &[u8], from: usize, kept: usize) {
         let rtu = self.main(index).is(&modbus_rtu::PROTOCOL);
-        let port = usize::from(self.lanes[index].row(from).port);
-        let like = rtu && has_length(bytes) && {
-            let (unit, function) = (bytes[0], bytes[1] & !EXCEPTION);
-            let awaited = self.waiting[port].is_some_and(|it| (it.unit, it.function) == (unit, function));
-            let seen =
-                self.seen[usize::from(unit) * 2 + usize::from(function >> 6)] >> (function & 63) & 1 == 1;
-            awaited || seen || self.splitter.rtu_lengths(bytes).contains(&Some(bytes.len()))
-        };
+        let like = rtu
+            && has_length(bytes)
+            && (self.is_of_known(index, bytes, from)
+                || self.splitter.rtu_lengths(bytes).contains(&Some(bytes.len())));
         match like {
-            true => {
-                // Of a check that is right, only the length is wrong.
-                let main = self.main(index);
-                self.push(index, bytes, from, kept, main, (main.verdict)(bytes), Role::Plain);
-            }
+            true => self.damaged(index, bytes, from, kept),
             false => self.discard(index, bytes, from, kept),
         }
+    }
+
+    /// Whether bytes begin with a unit and a function that were seen or are awaited.
+    pub(super) fn is_of_known(&self, index: usize, bytes: &[u8], from: usize) -> bool {
+        let [unit, code, ..] = *bytes else { return false };
+        let (port, function) = (usize::from(self.lanes[index].row(from).port), code & !EXCEPTION);
+        let awaited = self.waiting[port].is_some_and(|it| (it.unit, it.function) == (unit, function));
+        awaited || self.seen[usize::from(unit) * 2 + usize::from(function >> 6)] >> (function & 63) & 1 == 1
+    }
+
+    /// Adds a telegram of which something is wrong: its check, or with that right, only its length.
+    pub(super) fn damaged(&mut self, index: usize, bytes: &[u8], from: usize, kept: usize) {
+        let main = self.main(index);
+        self.push(index, bytes, from, kept, main, (main.verdict)(bytes), Role::Plain);
     }
 
     pub(super) fn discard(&mut self, index: usize, bytes: &[u8], from: usize, kept: usize) {
@@ -707,7 +737,7 @@ impl Traffic {
         let Some(function) = pdu.first().copied() else { return };
         entry.function = function;
         entry.sides = self.splitter.sides(pdu);
-        if entry.sides == [false; 2] && self.splitter.knows(function) {
+        if entry.sides == [false; 2] && self.splitter.knows(function) && entry.hint == Hint::None {
             // The direction whose length it misses by less.
             let (_, around) = match protocol.speaker {
                 crate::frame::Speaker::Pdu(inside) => inside(bytes),

@@ -24,6 +24,8 @@ pub(super) struct Weak {
     /// It looks like a telegram of some kind.
     pub read: bool,
     pub cut: bool,
+    /// Its bits count on the request before it.
+    pub awaited: bool,
     pub facts: Facts,
 }
 
@@ -98,6 +100,12 @@ impl Shapes {
     }
 }
 
+/// So far apart request and response may be.
+const NEAR: usize = 3;
+
+/// So few lines say nothing of each other.
+const FEW: usize = 4;
+
 /// Fewer bytes are only told by a person.
 const SHORTEST: usize = 4;
 
@@ -137,9 +145,13 @@ impl Traffic {
         let mut weak = std::mem::take(&mut self.weak);
         let mut gone: HashSet<u32> = self.gone.drain(..).collect();
         weak.retain(|weak| !gone.contains(&weak.entry));
+        // Who types telegrams types few lines that are none.
+        let read = self.entries.len() - weak.iter().filter(|weak| !weak.read || weak.facts.slips).count();
+        let typed = typed && (self.entries.len() <= FEW || read * 2 >= self.entries.len());
         if typed {
             self.choose_typed(&mut weak);
         }
+        self.settle_pdus(&weak, &gone);
         let known = Known::of(self, &weak, &gone);
         let threshold = evidence::threshold(weak.iter().filter(|weak| weak.read).count());
         // Telegrams inside of what is none.
@@ -171,6 +183,32 @@ impl Traffic {
         }
         self.take_turns();
         self.settle_passed();
+    }
+
+    /// `03 04 00 01 00 02` is a request of unit 3, or the answer to `03 00 01 00 02`: what was asked before tells.
+    fn settle_pdus(&mut self, weak: &[Weak], gone: &HashSet<u32>) {
+        for one in weak {
+            let index = one.entry as usize;
+            let entry = &self.entries[index];
+            if !entry.protocol().is(&modbus_unchecked::PROTOCOL) {
+                continue;
+            }
+            let before = self.numbered(index.saturating_sub(NEAR), index);
+            let asked = before.into_iter().rfind(|(number, other)| {
+                !gone.contains(number) && other.port == entry.port && other.role != Role::Discarded
+            });
+            let own = bytes(entry, &self.data);
+            let answers = asked.is_some_and(|(_, asked)| {
+                let request = bytes(asked, &self.data);
+                asked.protocol().is(&modbus_pdu::PROTOCOL)
+                    && own.first() == request.first()
+                    && self.splitter.answer_length(request) == Some(own.len())
+            });
+            if answers {
+                let telegram = own.to_vec();
+                self.retype(index, &telegram, &modbus_pdu::PROTOCOL, Verdict::NoCheck);
+            }
+        }
     }
 
     /// An entry without a proof is a telegram.
@@ -368,11 +406,14 @@ impl Traffic {
         if typed && meant && !facts.abridged {
             return true;
         }
-        // Nothing so short can be told from other things.
-        if own.len() < SHORTEST && *own != [profibus_fdl::SC] {
+        // Nothing so short can be told from other things, but an exception where a request waits for its answer.
+        let in_conversation = self.is_in_conversation(one, own, gone);
+        let exception = entry.function & EXCEPTION != 0 && one.read && in_conversation;
+        if own.len() < SHORTEST && *own != [profibus_fdl::SC] && !exception {
             return false;
         }
-        if (facts.abridged && one.cut) || self.repeats(one, gone) {
+        let amiss = (facts.abridged && one.cut) || facts.slips || (facts.column && !in_conversation);
+        if amiss || self.repeats(one, gone) {
             return false;
         }
         let placed = (facts.said || facts.bare || facts.dumped) && !facts.of_leftovers;
@@ -395,16 +436,16 @@ impl Traffic {
         if let [profibus_fdl::SC] = own {
             bits += if known.families[Family::Profibus as usize] { SAME } else { OTHER_KIND };
         }
-        if self.is_in_conversation(one, own, gone) {
+        if in_conversation {
             bits += CONVERSATION;
+        } else if one.awaited && !self.is_awaited(one, gone) {
+            bits -= CONVERSATION;
         }
         bits >= threshold
     }
 
     /// Whether an entry answers one of those just before it, or is answered by one just behind.
     fn is_in_conversation(&self, one: &Weak, own: &[u8], gone: &HashSet<u32>) -> bool {
-        /// So far away they may be.
-        const NEAR: usize = 3;
         let index = one.entry as usize;
         let entry = &self.entries[index];
         let near = |other: &&(u32, &Entry)| {
@@ -419,6 +460,19 @@ impl Traffic {
                 let others = before.iter().chain(&behind).filter(near);
                 others.into_iter().any(|(_, other)| channel(bytes(other, &self.data)) == Some(own))
             })
+    }
+
+    /// Whether the request whose answer an entry may be is still taken for one.
+    fn is_awaited(&self, one: &Weak, gone: &HashSet<u32>) -> bool {
+        /// So far away it may be.
+        const NEAR: usize = 16;
+        let index = one.entry as usize;
+        let entry = &self.entries[index];
+        self.numbered(index.saturating_sub(NEAR), index).into_iter().any(|(number, other)| {
+            !gone.contains(&number)
+                && (other.port, other.unit) == (entry.port, entry.unit)
+                && other.function == entry.function & !EXCEPTION
+        })
     }
 
     /// The entries `from` to `to`, as far as there are so many, with their numbers.

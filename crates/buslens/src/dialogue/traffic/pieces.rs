@@ -1,8 +1,8 @@
 //! Pieces of a text: what in them is proven to be a telegram, what is the beginning of one that goes on in the
 //! next piece, and what may be one.
 
-use super::collect::{PAUSE, Row, Traffic, is_right, keep};
-use super::entry::{NO_TIME, Role};
+use super::collect::{PAUSE, Row, Traffic, has_length, is_right, keep};
+use super::entry::{Hint, NO_TIME, Role};
 use super::judge::Weak;
 use crate::dialogue::evidence::{self, Reading};
 use crate::dialogue::foreign::FOREIGN;
@@ -60,18 +60,11 @@ impl Traffic {
             return self.all_by_hand(index, bytes);
         }
         if facts.column {
-            for reading in [bytes, decimal] {
-                let mut found = Vec::new();
-                self.inside(index, reading, &mut found);
-                self.take_found(index, reading, 0, &found);
-                if !found.is_empty() || self.characters(index, reading, &facts) {
-                    return;
-                }
-            }
-            return self.passed.push((row.line, row.offset));
+            return self.column(index, bytes, decimal, row);
         }
         let twice = (self.latest_piece.0, self.latest_piece.2) == (row.line, row.hint)
-            && self.latest_piece.1 == bytes;
+            && self.latest_piece.1 == bytes
+            && !facts.said;
         if twice && row.line > 0 && bytes.len() > 1 {
             return;
         }
@@ -104,7 +97,6 @@ impl Traffic {
         for reading in [bytes, decimal] {
             self.inside(index, reading, &mut found);
             if !found.is_empty() {
-                self.shapes.count(facts.shape, true);
                 self.take_found(index, reading, 0, &found);
                 return self.take_rest(index, reading, &found, row);
             }
@@ -113,6 +105,43 @@ impl Traffic {
             self.foreign_protocols[foreign] += 1;
         }
         self.unproven(index, bytes, decimal, breaks, row);
+    }
+
+    /// Bytes that stand below each other, or between words: only what is beyond doubt counts. Several columns of
+    /// the same lines, and pieces of the same line, can have the same telegrams.
+    fn column(&mut self, index: usize, bytes: &[u8], decimal: &[u8], row: Row) {
+        let known = self.entries.partition_point(|entry| entry.line < row.line);
+        let known: Vec<(u32, u16)> =
+            self.entries[known..].iter().map(|entry| (entry.at, entry.length)).collect();
+        for reading in [bytes, decimal] {
+            let mut found = Vec::new();
+            if !self.whole(index, reading, false, &mut found) {
+                self.inside(index, reading, &mut found);
+            }
+            let seen = |(from, to, ..): &Found| {
+                known.iter().any(|(at, length)| {
+                    let at = *at as usize;
+                    self.data.get(at..at + usize::from(*length)) == Some(&reading[*from..*to])
+                })
+            };
+            let any = !found.is_empty();
+            found.retain(|telegram| !seen(telegram));
+            self.take_found(index, reading, 0, &found);
+            if any || self.characters(index, reading, &row.facts) {
+                return;
+            }
+        }
+        // As the standard prints its examples, request and response stand side by side without a check.
+        let fresh = !known.iter().any(|(at, length)| {
+            self.data.get(*at as usize..*at as usize + usize::from(*length)) == Some(bytes)
+        });
+        let reading = evidence::reading(bytes, &self.splitter, None)
+            .filter(|reading| fresh && !reading.cut && reading.verdict == Verdict::NoCheck)
+            .filter(|_| !row.facts.marked);
+        match reading {
+            Some(_) => self.add_weak(index, bytes, 0, &row.facts, reading),
+            None => self.passed.push((row.line, row.offset)),
+        }
     }
 
     /// A person says that all pieces are telegrams of the protocol.
@@ -151,39 +180,46 @@ impl Traffic {
             found.push((0, bytes.len(), &modbus_rtu::PROTOCOL, Verdict::Right));
             return true;
         }
+        [&modbus_tcp::PROTOCOL, &profibus_fdl::PROTOCOL, &modbus_rtu::PROTOCOL]
+            .into_iter()
+            .any(|protocol| self.leading(index, protocol, bytes, plain, found) == bytes.len())
+    }
+
+    /// Finds the telegrams of `protocol` beyond doubt that begin a piece, one behind the other; returns where they
+    /// end.
+    fn leading(
+        &self,
+        index: usize,
+        protocol: &'static Protocol,
+        bytes: &[u8],
+        plain: bool,
+        found: &mut Vec<Found>,
+    ) -> usize {
+        found.clear();
         let waiting = self.waiting_at(index);
-        for protocol in [&modbus_tcp::PROTOCOL, &profibus_fdl::PROTOCOL, &modbus_rtu::PROTOCOL] {
-            found.clear();
-            let mut at = 0;
-            while at < bytes.len() {
-                let place = Place {
-                    bytes: &bytes[at..],
-                    last: true,
-                    in_step: true,
-                    waiting: waiting.filter(|_| at == 0),
-                };
-                let Begins::Telegram(length) = self.splitter.begins(protocol, place) else { break };
-                let telegram = &bytes[at..at + length];
-                let known =
-                    telegram.get(modbus_tcp::HEADER).is_some_and(|function| self.splitter.knows(*function));
-                // A request of RTU for two registers from 0 looks like a header with a function behind it.
-                let more = telegram.len() > modbus_tcp::HEADER + 1;
-                let told =
-                    if more { known || plain } else { known && self.protocol.is(&modbus_tcp::PROTOCOL) };
-                if protocol.is(&modbus_tcp::PROTOCOL) && !told {
-                    break;
-                }
-                let checked = (protocol.verdict)(telegram);
-                found.push((at, at + length, protocol, checked));
-                at += length;
+        let mut at = 0;
+        while at < bytes.len() {
+            let waiting = waiting.filter(|_| at == 0);
+            let place = Place { bytes: &bytes[at..], last: true, in_step: true, waiting };
+            let Begins::Telegram(length) = self.splitter.begins(protocol, place) else { break };
+            let telegram = &bytes[at..at + length];
+            let known =
+                telegram.get(modbus_tcp::HEADER).is_some_and(|function| self.splitter.knows(*function));
+            // A request of RTU for two registers from 0 looks like a header with a function behind it.
+            let more = telegram.len() > modbus_tcp::HEADER + 1;
+            let told = if more { known || plain } else { known && self.protocol.is(&modbus_tcp::PROTOCOL) };
+            if protocol.is(&modbus_tcp::PROTOCOL) && !told {
+                break;
             }
-            let proven = |(from, to, ..): &Found| to - from > 3;
-            if at == bytes.len() && found.iter().any(proven) {
-                return true;
-            }
+            found.push((at, at + length, protocol, (protocol.verdict)(telegram)));
+            at += length;
+        }
+        // An acknowledgement alone proves nothing.
+        if found.iter().any(|(from, to, ..)| to - from > 3) {
+            return at;
         }
         found.clear();
-        false
+        0
     }
 
     /// Whether bytes are one RTU frame with a right check. A check that is right before the telegram's end says
@@ -203,8 +239,9 @@ impl Traffic {
         let lengths = self.splitter.rtu_lengths(bytes);
         let shorter =
             lengths.into_iter().flatten().any(|length| length < bytes.len() && is_right(&bytes[..length]));
-        let longer = lengths.into_iter().flatten().any(|length| length > bytes.len());
-        self.splitter.sides(pdu) != [false; 2] || (!shorter && !longer)
+        // Only a zero leaves a check right, so that one is all that can be missing.
+        let longer = lengths.into_iter().flatten().any(|length| length == bytes.len() + 1);
+        self.splitter.sides(pdu) != [false; 2] || (bytes.len() > 4 && !shorter && !longer)
     }
 
     /// Takes a piece that is written as the characters of a telegram: a frame of Modbus ASCII, or hex text.
@@ -311,7 +348,10 @@ impl Traffic {
                     }
                     None => {
                         let kept = keep(&mut self.data, rest);
-                        self.unframed(index, rest, at, kept);
+                        match has_length(rest) && self.is_of_known(index, rest, at) {
+                            true => self.damaged(index, rest, at, kept),
+                            false => self.discard(index, rest, at, kept),
+                        }
                     }
                 }
             }
@@ -350,7 +390,16 @@ impl Traffic {
             self.lanes[index].held = Some(held);
             return false;
         }
+        let same = row.facts.shape == held.rows[0].facts.shape;
+        // A number that ends a sentence is no rest of a telegram.
+        let Facts { rest, bare, of_leftovers, .. } = row.facts;
+        let sent = row.hint != Hint::None && row.hint == held.rows[0].hint;
+        let placed = !rest || bare || of_leftovers || same || sent;
         if is_apart(&held, row) {
+            return false;
+        }
+        if !placed {
+            self.lanes[index].held = Some(held);
             return false;
         }
         let length = held.bytes.len();
@@ -358,7 +407,10 @@ impl Traffic {
         let rest = &joined[held.from..];
         let mut found = Vec::new();
         let whole = self.whole(index, rest, true, &mut found);
-        if whole || self.is_beginning(index, rest) && row.facts.shape == held.rows[0].facts.shape {
+        if !whole && same && self.goes_on_behind(index, rest, length - held.from, &mut found) {
+            return self.take_with_tail(index, held, bytes, row, &found);
+        }
+        if whole || self.is_beginning(index, rest) && same {
             let rows =
                 self.lanes[index].rows.iter().map(|row| Row { from: row.from + length as isize, ..*row });
             held.rows.extend(rows);
@@ -381,6 +433,39 @@ impl Traffic {
             self.lanes[index].held = Some(held);
         }
         false
+    }
+
+    /// Whether a telegram whose first bytes were `held` ends within `bytes`, and another one begins there: what
+    /// was received came in parts that are no telegrams.
+    fn goes_on_behind(&self, index: usize, bytes: &[u8], held: usize, found: &mut Vec<Found>) -> bool {
+        [&modbus_tcp::PROTOCOL, &modbus_rtu::PROTOCOL].into_iter().any(|protocol| {
+            let end = self.leading(index, protocol, bytes, true, found);
+            end > held && self.is_beginning(index, &bytes[end..])
+        })
+    }
+
+    /// Takes the telegrams that were found in what is held and a piece behind it, and holds the rest.
+    fn take_with_tail(&mut self, index: usize, held: Held, bytes: &[u8], row: Row, found: &[Found]) -> bool {
+        let length = held.bytes.len();
+        let joined = [held.bytes.as_slice(), bytes].concat();
+        let rows = self.lanes[index].rows.iter().map(|row| Row { from: row.from + length as isize, ..*row });
+        let rows = held.rows.into_iter().chain(rows).collect();
+        let own = std::mem::replace(&mut self.lanes[index].rows, rows);
+        self.gone.extend(&held.entries);
+        self.shapes.count(row.facts.shape, true);
+        self.take_found(index, &joined[held.from..], held.from, found);
+        self.lanes[index].rows = own;
+        let end = held.from + found.last().map_or(0, |(_, to, ..)| *to);
+        self.lanes[index].held = Some(Held {
+            bytes: joined[end..].to_vec(),
+            rows: vec![Row { from: length as isize - end as isize, ..row }],
+            from: 0,
+            latest: 0,
+            entries: Vec::new(),
+            complete: false,
+            age: 0,
+        });
+        true
     }
 
     /// Whether a telegram that begins so is longer.
@@ -411,13 +496,18 @@ impl Traffic {
         let parts = parts(breaks, bytes.len()).map(|(from, to)| (from, &bytes[from..to]));
         let readings = whole.chain(parts).filter(|(_, part)| !part.is_empty());
         let waiting = self.waiting_at(index);
-        let best = readings
-            .map(|(from, part)| (from, part, evidence::reading(part, &self.splitter, waiting)))
-            .reduce(|best, other| {
-                // Numbers of a list that could be hex and decimal are decimal.
-                let listed = facts.listed && other.1 == decimal && bits(&other.2) == bits(&best.2);
-                if bits(&other.2) > bits(&best.2) || listed { other } else { best }
-            });
+        // Among many parts, more is found by chance.
+        let chance = 2 * (1 + breaks.len()).ilog2() as i32;
+        let read = |part: &[u8]| {
+            let reading = evidence::reading(part, &self.splitter, waiting)?;
+            let apart = part.len() < bytes.len();
+            Some(Reading { bits: reading.bits - if apart { chance } else { 0 }, ..reading })
+        };
+        let best = readings.map(|(from, part)| (from, part, read(part))).reduce(|best, other| {
+            // Numbers of a list that could be hex and decimal are decimal.
+            let listed = facts.listed && other.1 == decimal && bits(&other.2) == bits(&best.2);
+            if bits(&other.2) > bits(&best.2) || listed { other } else { best }
+        });
         let Some((from, part, reading)) = best else { return };
         let before = self.entries.len();
         let begins = |from: &usize| bytes.get(*from..).is_some_and(|rest| self.is_beginning(index, rest));
@@ -451,6 +541,10 @@ impl Traffic {
 
     /// What bytes are as a service of PROFIBUS without its frame.
     fn bare_profibus(&self, bytes: &[u8]) -> Option<Reading> {
+        // What reads as a text is one: `AT+CGMI` and a line end.
+        if bytes.iter().all(|c| matches!(c, b' '..=b'~' | b'\r' | b'\n')) {
+            return None;
+        }
         let bare = PROTOCOLS
             .iter()
             .copied()
@@ -459,7 +553,7 @@ impl Traffic {
         let (bits, protocol) = fits
             .filter(|(bits, _)| *bits > 0)
             .reduce(|best, other| if other.0 > best.0 { other } else { best })?;
-        Some(Reading { protocol, verdict: Verdict::NoCheck, from: 0, bits, cut: false })
+        Some(Reading { protocol, verdict: Verdict::NoCheck, from: 0, bits, cut: false, awaited: false })
     }
 
     /// Adds an entry that is to be judged.
@@ -503,6 +597,7 @@ impl Traffic {
             bits: bits(&reading) + evidence::place(facts),
             read: reading.is_some(),
             cut: reading.is_some_and(|reading| reading.cut),
+            awaited: reading.is_some_and(|reading| reading.awaited),
             facts: *facts,
         });
         debug_assert!(self.entries[before].role == Role::Plain);

@@ -4,7 +4,7 @@
 #[cfg(feature = "json")]
 use serde::{Deserialize, Serialize};
 
-use super::{Log, Source};
+use super::{Log, Source, State};
 use crate::dialogue::{Certainty, Choice, Guess};
 use crate::field::{Direction, Span};
 use crate::frame::{PROTOCOLS, Protocol};
@@ -45,6 +45,7 @@ struct Neighbour {
     answered_by: Option<usize>,
     time: Option<String>,
     latency: Option<u32>,
+    state: Option<State>,
 }
 
 impl Log {
@@ -102,6 +103,7 @@ impl Neighbour {
             answered_by: telegram.answered_by,
             time: telegram.time.clone(),
             latency: telegram.latency,
+            state: telegram.state,
         }
     }
 
@@ -128,6 +130,7 @@ impl Neighbour {
             step: None,
             time: self.time.clone(),
             latency: self.latency,
+            state: self.state,
             comment: String::new(),
         }
     }
