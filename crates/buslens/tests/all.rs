@@ -12,10 +12,10 @@ mod captures;
 mod devices;
 #[path = "devices_in_logs.rs"]
 mod devices_in_logs;
-#[path = "hypotheses/main.rs"]
-mod hypotheses;
 #[path = "going_out.rs"]
 mod going_out;
+#[path = "hypotheses/main.rs"]
+mod hypotheses;
 #[path = "keb.rs"]
 mod keb;
 #[path = "kinds.rs"]
