@@ -92,7 +92,7 @@ pub fn html(template: &str, edition: &Edition, links: &Links) -> Result<String, 
             integrity(&style.content)
         ),
         format!(r#"<link rel="icon" href="./{}" type="image/svg+xml">"#, icon.name),
-        format!(r#"<link rel="manifest" href="./{}">"#, manifest.name),
+        format!(r#"<link rel="manifest" href="./{}" crossorigin="use-credentials">"#, manifest.name),
         format!(
             r#"<script type="module" src="./{}" integrity="{}"></script>"#,
             boot.name,
