@@ -231,9 +231,11 @@ impl Address {
             }
             first
         });
+        let key = view.content().key();
+        let kept_here = (first == Some(true)).then(|| storage::kept_for_reload(key)).flatten();
         if content.is_empty() {
             if first == Some(true) {
-                let kept = storage::kept(view.content().key()).unwrap_or_default();
+                let kept = kept_here.or_else(|| storage::kept(key)).unwrap_or_default();
                 shows.follow(view, read(&kept));
             }
             self.view.set(view);
@@ -269,19 +271,28 @@ impl Address {
         });
     }
 
+    /// Keeps what every view shows, since the page is about to be loaded anew; whether all of it comes back.
+    pub async fn keep_all(self) -> bool {
+        let Some(shows) = self.shows() else { return true };
+        let visited = self.keeper.with_value(|keeper| keeper.visited.clone());
+        let kept = visited.into_iter().all(|view| {
+            let kept = kept_text(shows.link(view));
+            kept.is_some_and(|kept| storage::keep_for_reload(view.key(), &kept).is_ok())
+        });
+        self.keeper.update_value(|keeper| keeper.waiting = None);
+        self.write().await;
+        kept
+    }
+
     /// Writes what is shown into the address, and into the browser's store for the next visit.
     async fn write(self) {
         let Some(shows) = self.shows() else { return };
         let view = self.view.get_untracked();
         let link = shows.link(view);
         let content = written(&link);
-        // How devices are set up is kept by itself, and may be changed before the next visit.
-        let options = Options { settings: Settings::default(), ..link.options };
-        let kept = written(&Link { options, ..link });
-        let kept = if kept.len() > LONGEST_KEPT { "" } else { &kept };
         // A full or forbidden store only means that it is gone at the next visit; Devices, whose settings
         // must not get lost, says so.
-        let _ = storage::keep(view.content().key(), kept);
+        let _ = storage::keep(view.content().key(), &kept_text(link).unwrap_or_default());
         let content = packed(content).await.unwrap_or_default();
         let fragment = match content.is_empty() {
             true => format!("/{}", view.key()),
@@ -317,6 +328,13 @@ fn written(link: &Link) -> String {
     let pairs: Vec<String> =
         link.pairs().iter().map(|(key, value)| format!("{}={}", encoded(key), encoded(value))).collect();
     pairs.join("&")
+}
+
+/// What a link holds, as it is kept for the next visit, if it is not too long for that.
+fn kept_text(link: Link) -> Option<String> {
+    // How devices are set up is kept by itself, and may be changed before the next visit.
+    let options = Options { settings: Settings::default(), ..link.options };
+    Some(written(&Link { options, ..link })).filter(|kept| kept.len() <= LONGEST_KEPT)
 }
 
 /// The link that [`written`] wrote; what is damaged is left out.

@@ -5,12 +5,16 @@ use std::time::Duration;
 
 use leptos::ev::{DragEvent, MouseEvent};
 use leptos::prelude::*;
+use leptos::wasm_bindgen::JsCast;
+use web_sys::File;
+use web_sys::js_sys::Reflect;
 
 use crate::address::{Address, Shows, View};
 use crate::browser::typing::is_typed_into;
+use crate::components::foot::{AboutIsOpen, Foot};
 use crate::components::header::Header;
 use crate::components::toast::{ToastList, Toasts};
-use crate::later::{Later, LaterView, Part};
+use crate::later::{Later, LaterPiece, Part, Piece};
 use crate::views::devices::{Borrowed, DeviceSettings};
 use crate::views::read::{Read, ReadState};
 use crate::views::sheet::SheetState;
@@ -22,6 +26,7 @@ pub fn App() -> impl IntoView {
     let toasts = Toasts::new();
     provide_context(address);
     provide_context(toasts);
+    provide_context(AboutIsOpen(RwSignal::new(false)));
     let devices = DeviceSettings::new();
     provide_context(devices);
     let later = Later::new();
@@ -51,6 +56,18 @@ pub fn App() -> impl IntoView {
             let _ = main.focus();
         }
     };
+    let open = move |file: File| {
+        read.open(file);
+        if address.view_now() != View::Read {
+            address.go_to(View::Read);
+        }
+    };
+    // Where the page is installed, the system opens files with it: the boot script hears of it first.
+    let launched = window_event_listener_untyped("openfile", move |event| {
+        let file = Reflect::get(&event, &"detail".into()).ok().and_then(|file| file.dyn_into().ok());
+        file.into_iter().for_each(open);
+    });
+    on_cleanup(move || launched.remove());
     let dropped = move |event: DragEvent| {
         let Some(data) = event.data_transfer() else { return };
         let Some(file) = data.files().and_then(|files| files.get(0)) else {
@@ -71,14 +88,14 @@ pub fn App() -> impl IntoView {
         if folder.is_some_and(|entry| entry.is_directory()) {
             return toasts.say(format!("{} is a folder: open a file in it.", file.name()));
         }
-        read.open(file);
-        if address.view_now() != View::Read {
-            address.go_to(View::Read);
-        }
+        open(file);
     };
     let view = move || match address.view() {
         View::Read => view! { <Read /> }.into_any(),
-        view => view! { <LaterView part=Part::Views view /> }.into_any(),
+        View::Build => view! { <LaterPiece piece=Piece::Build /> }.into_any(),
+        View::Check => view! { <LaterPiece piece=Piece::Check /> }.into_any(),
+        View::Devices => view! { <LaterPiece piece=Piece::Devices /> }.into_any(),
+        View::Sheet => view! { <LaterPiece piece=Piece::Sheet /> }.into_any(),
     };
     view! {
         <div class="app" on:dragover=|event| event.prevent_default() on:drop=dropped>
@@ -90,6 +107,7 @@ pub fn App() -> impl IntoView {
             <main id="main" tabindex="-1" node_ref=main>
                 {view}
             </main>
+            <Foot />
             <ToastList />
         </div>
     }

@@ -13,28 +13,55 @@ use leptos::task::spawn_local;
 use leptos::wasm_split::{SplitLoaderError, wasm_split};
 
 use crate::address::View;
+use crate::components::causes::Causes;
+use crate::components::telegram::Shown;
 use crate::views::build::{Build, BuildState};
 use crate::views::check::{Check, CheckState};
 use crate::views::devices::Devices;
-use crate::views::read::{LogView, ReadState};
+use crate::views::read::{LogView, Pictures, ReadState};
 use crate::views::sheet::Sheet;
+use buslens::tool::json;
 use buslens::tool::link::Link;
 
 /// A part of the module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// Build, Check, Devices and Sheet.
+    /// Build, Check, Devices, Sheet, and what they have in common.
     Views,
-    /// What reads logs, and what shows them.
+    /// What reads logs and shows them, and what tells why a telegram is damaged.
     Log,
 }
 
-/// What is in a part.
+/// What the later parts draw.
+#[derive(Clone, Debug)]
+pub enum Piece {
+    Build,
+    Check,
+    Devices,
+    Sheet,
+    Log,
+    Causes(Shown),
+    /// What comes of telegrams and logs, beside the input that is empty.
+    Pictures,
+}
+
+impl Piece {
+    /// The part that it is in.
+    const fn part(&self) -> Part {
+        match self {
+            Self::Build | Self::Check | Self::Devices | Self::Sheet => Part::Views,
+            Self::Log | Self::Causes(_) | Self::Pictures => Part::Log,
+        }
+    }
+}
+
+/// What a part brings.
 #[derive(Clone, Copy)]
 struct Content {
-    /// Makes what outlasts its views; called once, for the app.
+    /// Makes what outlasts its pieces; called once, for the app.
     start: fn(),
-    view: fn(View) -> AnyView,
+    /// Draws one of its pieces.
+    draw: fn(Piece) -> AnyView,
 }
 
 #[wasm_split(views, wasm_split_path = leptos::wasm_split, fallible)]
@@ -47,23 +74,39 @@ fn views() -> Result<Content, NotLoaded> {
         later.give(View::Build, Box::new(build));
         later.give(View::Check, Box::new(check));
     }
-    fn view(view: View) -> AnyView {
-        match view {
-            View::Build => view! { <Build /> }.into_any(),
-            View::Check => view! { <Check /> }.into_any(),
-            View::Devices => view! { <Devices /> }.into_any(),
-            View::Sheet | View::Read => view! { <Sheet /> }.into_any(),
+    fn draw(piece: Piece) -> AnyView {
+        match piece {
+            Piece::Build => view! { <Build /> }.into_any(),
+            Piece::Check => view! { <Check /> }.into_any(),
+            Piece::Devices => view! { <Devices /> }.into_any(),
+            Piece::Sheet => view! { <Sheet /> }.into_any(),
+            Piece::Log | Piece::Causes(_) | Piece::Pictures => ().into_any(),
         }
     }
-    Ok(Content { start, view })
+    Ok(Content { start, draw })
 }
 
 #[wasm_split(log, wasm_split_path = leptos::wasm_split, fallible)]
 fn log() -> Result<Content, NotLoaded> {
-    Ok(Content {
-        start: || expect_context::<ReadState>().read_logs(),
-        view: |_| view! { <LogView /> }.into_any(),
-    })
+    fn draw(piece: Piece) -> AnyView {
+        match piece {
+            Piece::Causes(shown) => {
+                let read = expect_context::<ReadState>();
+                let on_use = Callback::new(move |bytes| read.correct(bytes));
+                view! { <Causes shown on_use /> }.into_any()
+            }
+            Piece::Pictures => view! { <Pictures /> }.into_any(),
+            _ => view! { <LogView /> }.into_any(),
+        }
+    }
+    Ok(Content { start: || expect_context::<ReadState>().read_logs(), draw })
+}
+
+/// The telegram as JSON with its fields.
+#[wasm_split(views, wasm_split_path = leptos::wasm_split, fallible)]
+pub fn json(shown: Shown) -> Result<String, NotLoaded> {
+    // Text and numbers always make JSON.
+    Ok(json::line(&shown.report, shown.index, true).unwrap_or_default())
 }
 
 /// Answers what the page asks about logs; for the worker.
@@ -218,18 +261,26 @@ impl Later {
     }
 }
 
-/// The view of a later part, which is loaded if it is not there.
+/// A piece of a later part, which is loaded if it is not there.
 #[component]
-pub fn LaterView(part: Part, view: View) -> impl IntoView {
+pub fn LaterPiece(piece: Piece) -> impl IntoView {
     let later = expect_context::<Later>();
+    let part = piece.part();
     later.load(part);
     move || {
         match later.stage(part).get() {
-        Stage::There(content) => (content.view)(view),
+        Stage::There(content) => (content.draw)(piece.clone()),
+        // What only decorates is not waited for.
+        _ if matches!(piece, Piece::Pictures) => ().into_any(),
         Stage::Not | Stage::Loading => {
             view! { <p class="coming" role="status">"One moment"</p> }.into_any()
         }
-        Stage::Failed => view! { <CouldNotLoad part>"This view could not be loaded: check the connection. What you typed is still here."</CouldNotLoad> }.into_any(),
+        Stage::Failed => view! {
+            <CouldNotLoad part>
+                "This part of the page could not be loaded: check the connection. What you typed is still here."
+            </CouldNotLoad>
+        }
+        .into_any(),
     }
     }
 }

@@ -1,23 +1,30 @@
 //! Turns compiled wasm into the static page.
 //!
-//! `cargo xtask build` runs this in the project's folder as `bundle <folder> <wasm file> [--dev]`. The
-//! document is made from the template `index.html`, the stylesheet from those that it links to. The folder
-//! is left holding the finished page and nothing else. With `--dev` there are no compressed copies, which
-//! take longest.
+//! `cargo xtask build` runs this in the project's folder as `bundle <folder> <wasm file> [--dev | --serve]`.
+//! The document is made from the template `index.html`, the stylesheet and the icons from those that it links
+//! to. The folder is left holding the finished page and nothing else: as files, and once more as one file.
+//! With `--dev` there are no compressed copies, which take longest. With `--serve` the browser keeps nothing
+//! of it either, and there is no single file.
 
 mod names;
+mod offline;
+mod one_file;
 mod page;
 mod split;
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use wasm_bindgen_cli_support::Bindgen;
 
-use page::{File, Links};
+use page::{Edition, File, Links};
 use split::Split;
+
+/// What the page as one file is called.
+const ONE_FILE: &str = "buslens.html";
 
 fn main() -> ExitCode {
     match run() {
@@ -29,31 +36,67 @@ fn main() -> ExitCode {
     }
 }
 
+/// What the page is built for.
+#[derive(Clone, Copy, PartialEq)]
+enum Purpose {
+    /// To be published.
+    Release,
+    /// To be tested while it is worked on.
+    Dev,
+    /// To be looked at while it is worked on.
+    Serve,
+}
+
 fn run() -> Result<(), String> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    let (folder, wasm, packs) = match words[..] {
-        [folder, wasm] => (folder, wasm, true),
-        [folder, wasm, "--dev"] => (folder, wasm, false),
-        _ => return Err("Usage: bundle <folder> <wasm file> [--dev]".to_owned()),
+    let (folder, wasm, purpose) = match words[..] {
+        [folder, wasm] => (folder, wasm, Purpose::Release),
+        [folder, wasm, "--dev"] => (folder, wasm, Purpose::Dev),
+        [folder, wasm, "--serve"] => (folder, wasm, Purpose::Serve),
+        _ => return Err("Usage: bundle <folder> <wasm file> [--dev | --serve]".to_owned()),
     };
+    let folder = Path::new(folder);
+    let is_kept = purpose != Purpose::Serve;
 
     let template = text("index.html")?;
     let Compiled { glue, wasm, later } = Compiled::read("page", Path::new(wasm))?;
-    let boot = hashed("boot", "js", page::boot(&glue, &wasm)?.into_bytes());
+    let boot = hashed("boot", "js", page::boot(&glue, &wasm, is_kept)?.into_bytes());
     let style = hashed("page", "css", stylesheet(&template)?.into_bytes());
-    let [icon] = page::linked(&template, "icon")[..] else {
-        return Err("index.html should link to one icon.".to_owned());
+    let icon = hashed("icon", "svg", read(&linked(&template, "icon")?)?);
+    let mut icons = Vec::new();
+    let manifest = offline::manifest(&linked(&template, "manifest")?, &mut icons)?;
+
+    let parts: Vec<&File> =
+        [&boot, &glue, &wasm, &style, &icon, &manifest].into_iter().chain(&later).chain(&icons).collect();
+    let version = offline::version(&template, &parts);
+    let mut written = Written::new(folder, purpose == Purpose::Release)?;
+    for file in &parts {
+        written.add(file)?;
+    }
+    let mut edition = Edition { version: &version, kind: "development", one_file: None };
+    if is_kept {
+        let modules: Vec<(&File, Vec<u8>)> = std::iter::once(&wasm)
+            .chain(&later)
+            .map(|file| Ok((file, written.packed(file)?)))
+            .collect::<Result<_, String>>()?;
+        let content = one_file::html(&template, &version, &style, &icon, &glue, &modules)?;
+        let file = File { name: ONE_FILE.to_owned(), content: content.into_bytes() };
+        written.add(&file)?;
+        edition = Edition { kind: "hosted", one_file: Some((ONE_FILE, file.content.len())), ..edition };
+    }
+    let links =
+        Links { style: &style, icon: &icon, manifest: &manifest, boot: &boot, glue: &glue, wasm: &wasm };
+    let document = page::html(&template, &edition, &links)?.into_bytes();
+    let worker = match is_kept {
+        true => offline::service_worker(&version, &document, &parts)?,
+        false => offline::FAREWELL.to_owned(),
     };
-    let icon = hashed("icon", "svg", read(Path::new(icon))?);
-    let links = Links { style: &style, icon: &icon, boot: &boot, glue: &glue, wasm: &wasm };
-    let document =
-        File { name: "index.html".to_owned(), content: page::html(&template, &links)?.into_bytes() };
-    // The document last, so that a page served from this folder during a build finds all it links to.
-    let mut files = vec![boot, glue, wasm, style, icon];
-    files.extend(later);
-    files.push(document);
-    write_all(Path::new(folder), &files, packs)
+    // Whoever is served from this folder meanwhile finds all that the document links to, and all that the
+    // service worker lists.
+    written.add(&File { name: "index.html".to_owned(), content: document })?;
+    written.add(&File { name: "service-worker.js".to_owned(), content: worker.into_bytes() })?;
+    written.finish()
 }
 
 /// What becomes of the compiled binary.
@@ -128,15 +171,35 @@ fn stylesheet(template: &str) -> Result<String, String> {
     Ok(style)
 }
 
-/// Writes the files and their compressed copies, then removes whatever else the folder holds.
-fn write_all(folder: &Path, files: &[File], packs: bool) -> Result<(), String> {
-    fs::create_dir_all(folder).map_err(|error| format!("{} cannot be made: {error}.", folder.display()))?;
-    let mut kept = BTreeSet::new();
-    for file in files {
-        let path = folder.join(&file.name);
-        let copies = [(".br", brotli as Pack), (".gz", gzip)]
-            .map(|(ending, pack)| (folder.join(format!("{}{ending}", file.name)), pack));
-        let copies = if packs { &copies[..] } else { &[] };
+/// The one file that the template links to as `rel`.
+fn linked(template: &str, rel: &str) -> Result<PathBuf, String> {
+    match page::linked(template, rel)[..] {
+        [name] => Ok(PathBuf::from(name)),
+        _ => Err(format!("index.html should link to one {rel}.")),
+    }
+}
+
+/// The folder with the files of the page.
+struct Written<'a> {
+    folder: &'a Path,
+    /// Each file has compressed copies.
+    packs: bool,
+    kept: BTreeSet<PathBuf>,
+}
+
+impl<'a> Written<'a> {
+    fn new(folder: &'a Path, packs: bool) -> Result<Self, String> {
+        fs::create_dir_all(folder)
+            .map_err(|error| format!("{} cannot be made: {error}.", folder.display()))?;
+        Ok(Self { folder, packs, kept: BTreeSet::new() })
+    }
+
+    /// Writes a file and its compressed copies.
+    fn add(&mut self, file: &File) -> Result<(), String> {
+        let path = self.folder.join(&file.name);
+        let copies =
+            [(".br", brotli as Pack), (".gz", gzip)].map(|(ending, pack)| (self.copy(file, ending), pack));
+        let copies = if self.packs { &copies[..] } else { &[] };
         // Copies are written before the file itself, so a file of the right content has its own.
         let same = fs::read(&path).is_ok_and(|old| old == file.content);
         if !same || copies.iter().any(|(path, _)| !path.exists()) {
@@ -145,17 +208,31 @@ fn write_all(folder: &Path, files: &[File], packs: bool) -> Result<(), String> {
             }
             replace(&path, &file.content)?;
         }
-        kept.extend(copies.iter().map(|(path, _)| path.clone()));
-        kept.insert(path);
+        self.kept.extend(copies.iter().map(|(path, _)| path.clone()));
+        self.kept.insert(path);
+        Ok(())
     }
-    for path in entries(folder)? {
-        if kept.contains(&path) {
-            continue;
+
+    /// What a written file is with gzip.
+    fn packed(&self, file: &File) -> Result<Vec<u8>, String> {
+        if self.packs { read(&self.copy(file, ".gz")) } else { quick_gzip(&file.content) }
+    }
+
+    fn copy(&self, file: &File, ending: &str) -> PathBuf {
+        self.folder.join(format!("{}{ending}", file.name))
+    }
+
+    /// Removes whatever else the folder holds.
+    fn finish(self) -> Result<(), String> {
+        for path in entries(self.folder)? {
+            if self.kept.contains(&path) {
+                continue;
+            }
+            let removed = if path.is_dir() { fs::remove_dir_all(&path) } else { fs::remove_file(&path) };
+            removed.map_err(|error| format!("{} cannot be removed: {error}.", path.display()))?;
         }
-        let removed = if path.is_dir() { fs::remove_dir_all(&path) } else { fs::remove_file(&path) };
-        removed.map_err(|error| format!("{} cannot be removed: {error}.", path.display()))?;
+        Ok(())
     }
-    Ok(())
 }
 
 /// Makes a compressed copy.
@@ -190,6 +267,12 @@ fn gzip(content: &[u8]) -> Result<Vec<u8>, String> {
     zopfli::compress(options, zopfli::Format::Gzip, content, &mut packed)
         .map_err(|error| format!("Gzip failed: {error}."))?;
     Ok(packed)
+}
+
+/// The same format, larger, and in a moment.
+fn quick_gzip(content: &[u8]) -> Result<Vec<u8>, String> {
+    let mut packer = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
+    packer.write_all(content).and_then(|()| packer.finish()).map_err(|error| format!("Gzip failed: {error}."))
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, String> {

@@ -18,6 +18,11 @@ pub fn integrity(content: &[u8]) -> String {
     format!("sha384-{}", BASE64.encode(&Sha384::digest(content)))
 }
 
+/// How a policy names a script or a stylesheet that stands in the document.
+pub fn sha256(content: &[u8]) -> String {
+    format!("sha256-{}", BASE64.encode(&Sha256::digest(content)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

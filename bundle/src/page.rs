@@ -2,18 +2,28 @@
 
 use crate::names::integrity;
 
-/// The boot script as it is written in this folder, with the plain names of the files it loads.
-const BOOT: &str = include_str!("boot.js");
+/// Starts the page, once it is known how its parts are come by.
+pub const START: &str = include_str!("boot/start.js");
+
+/// Where they are files of a server: by the plain names of those files.
+const HOSTED: &str = include_str!("boot/hosted.js");
+
+/// Has the page kept in the browser.
+const REGISTER: &str = include_str!("offline/register.js");
+
+/// The same for a page that is not kept.
+const NOT_KEPT: &str = "\nconst started = () => {};\n";
 
 /// The note in the page while it is not running. A page opened by file:// gets neither its scripts
 /// nor its stylesheet, so only the document itself can say why nothing happens. Everywhere else the
 /// stylesheet hides the note, and the boot script removes it or gives it the fitting words.
 const NOTE: &str = "<p id=\"boot\">Buslens is starting. If it does not: browsers load it from a web \
-    server only, not from a file. In the project's folder, <code>cargo xtask serve</code> starts such \
-    a server.</p>";
+    server only, not from a file. Beside it, <a href=\"./buslens.html\">buslens.html</a> is the whole page as \
+    one file, which opens anywhere; and in the project's folder, <code>cargo xtask serve</code> starts a \
+    server.</p>";
 
 /// Hides the note; belongs to the end of the stylesheet.
-pub const NOTE_STYLE: &str = include_str!("boot.css");
+pub const NOTE_STYLE: &str = include_str!("boot/note.css");
 
 /// What the page may do: run its own files, compile its wasm, and talk to nobody else.
 /// `frame-ancestors` is missing because a browser reads it from a header only.
@@ -31,16 +41,28 @@ pub struct File {
 pub struct Links<'a> {
     pub style: &'a File,
     pub icon: &'a File,
+    pub manifest: &'a File,
     pub boot: &'a File,
     pub glue: &'a File,
     pub wasm: &'a File,
 }
 
+/// What the document says of itself, for src/browser/edition.rs.
+#[derive(Clone, Copy)]
+pub struct Edition<'a> {
+    pub version: &'a str,
+    /// `hosted`, `one-file` or `development`.
+    pub kind: &'a str,
+    /// The page as one file, and its length.
+    pub one_file: Option<(&'a str, usize)>,
+}
+
 /// The boot script with hashed names in the place of plain ones: `./page.js` becomes
 /// `./page-0123456789abcdef.js`.
-pub fn boot(glue: &File, wasm: &File) -> Result<String, String> {
-    let text = replace_once(BOOT, "./page.js", &format!("./{}", glue.name))?;
-    replace_once(&text, "./page.wasm", &format!("./{}", wasm.name))
+pub fn boot(glue: &File, wasm: &File, is_kept: bool) -> Result<String, String> {
+    let text = replace_once(HOSTED, "./page.js", &format!("./{}", glue.name))?;
+    let text = replace_once(&text, "./page.wasm", &format!("./{}", wasm.name))?;
+    Ok([text.as_str(), if is_kept { REGISTER } else { NOT_KEPT }, START].concat())
 }
 
 /// The addresses that `template` links to as `rel`, in their order.
@@ -50,17 +72,10 @@ pub fn linked<'a>(template: &'a str, rel: &str) -> Vec<&'a str> {
     links.filter_map(|rest| Some(rest.split_once('"')?.0)).collect()
 }
 
-/// The document: the template with the policy at the start of its head, before anything that the
-/// policy governs, the files of the page in place of those it was written with at the end of it, and
-/// the note in the body. All addresses are relative, so that the page works in any folder of a site.
-pub fn html(template: &str, links: &Links) -> Result<String, String> {
-    let own =
-        |line: &&str| !line.contains("<link rel=\"stylesheet\"") && !line.contains("<link rel=\"icon\"");
-    let plain = template.lines().filter(own).map(|line| format!("{line}\n")).collect::<String>();
-    let policy = format!("<head>\n    <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">");
-    let with_policy = replace_once(&plain, "<head>", &policy)?;
-
-    let Links { style, icon, boot, glue, wasm } = links;
+/// The document: the template with the files of the page in place of those it was written with. All
+/// addresses are relative, so that the page works in any folder of a site.
+pub fn html(template: &str, edition: &Edition, links: &Links) -> Result<String, String> {
+    let Links { style, icon, manifest, boot, glue, wasm } = links;
     let lines = [
         format!(
             r#"<link rel="preload" href="./{}" as="fetch" type="application/wasm" crossorigin>"#,
@@ -77,20 +92,46 @@ pub fn html(template: &str, links: &Links) -> Result<String, String> {
             integrity(&style.content)
         ),
         format!(r#"<link rel="icon" href="./{}" type="image/svg+xml">"#, icon.name),
+        format!(r#"<link rel="manifest" href="./{}">"#, manifest.name),
         format!(
             r#"<script type="module" src="./{}" integrity="{}"></script>"#,
             boot.name,
             integrity(&boot.content)
         ),
     ];
-    let links = format!("  {}\n  </head>", lines.join("\n    "));
-    let with_links = replace_once(&with_policy, "</head>", &links)?;
-    replace_once(&with_links, "<body>", &format!("<body>\n    {NOTE}"))
+    document(template, POLICY, edition, &lines, NOTE)
+}
+
+/// The template with the policy at the start of its head, before anything that the policy governs, `lines` at
+/// the end of it in place of the links it was written with, and `body` at the start of its body.
+pub fn document(
+    template: &str,
+    policy: &str,
+    edition: &Edition,
+    lines: &[String],
+    body: &str,
+) -> Result<String, String> {
+    let own = |line: &&str| !line.trim_start().starts_with("<link rel=");
+    let plain = template.lines().filter(own).map(|line| format!("{line}\n")).collect::<String>();
+    let policy = format!("<head>\n    <meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">");
+    let with_policy = replace_once(&plain, "<head>", &policy)?;
+
+    let mut head = vec![
+        format!(r#"<meta name="version" content="{}">"#, edition.version),
+        format!(r#"<meta name="edition" content="{}">"#, edition.kind),
+    ];
+    if let Some((name, bytes)) = edition.one_file {
+        head.push(format!(r#"<meta name="one-file" content="./{name} {bytes}">"#));
+    }
+    head.extend_from_slice(lines);
+    let head = format!("  {}\n  </head>", head.join("\n    "));
+    let with_links = replace_once(&with_policy, "</head>", &head)?;
+    replace_once(&with_links, "<body>", &format!("<body>\n    {body}"))
 }
 
 /// Replaces the only place where `text` has `from`. A template in which it is missing, or stands
 /// twice, would give a page without its policy or without its script.
-fn replace_once(text: &str, from: &str, to: &str) -> Result<String, String> {
+pub fn replace_once(text: &str, from: &str, to: &str) -> Result<String, String> {
     match text.matches(from).count() {
         1 => Ok(text.replacen(from, to, 1)),
         count => Err(format!(
@@ -107,6 +148,9 @@ mod tests {
         <link rel=\"stylesheet\" href=\"style/a.css\">\n    <link rel=\"stylesheet\" href=\"style/b.css\">\n  \
         </head>\n  <body></body>\n</html>\n";
 
+    const EDITION: Edition =
+        Edition { version: "1.2.3+abcd", kind: "hosted", one_file: Some(("buslens.html", 1234)) };
+
     fn file(name: &str) -> File {
         File { name: name.to_owned(), content: name.as_bytes().to_vec() }
     }
@@ -114,9 +158,11 @@ mod tests {
     fn page(template: &str) -> Result<String, String> {
         html(
             template,
+            &EDITION,
             &Links {
                 style: &file("page-1.css"),
                 icon: &file("icon-2.svg"),
+                manifest: &file("manifest-6.json"),
                 boot: &file("boot-3.js"),
                 glue: &file("page-4.js"),
                 wasm: &file("page-5.wasm"),
@@ -141,6 +187,7 @@ mod tests {
         }
         assert_eq!(html.matches("<script").count(), 1, "{html}");
         assert!(html.contains("\"></script>"), "{html}");
+        assert!(!html.contains("<style"), "{html}");
     }
 
     #[test]
@@ -158,8 +205,19 @@ mod tests {
 
     #[test]
     fn the_boot_script_loads_the_hashed_names() {
-        let boot = boot(&file("page-4.js"), &file("page-5.wasm")).unwrap();
-        assert!(boot.contains("\"./page-4.js\""), "{boot}");
-        assert!(boot.contains("\"./page-5.wasm\""), "{boot}");
+        for is_kept in [true, false] {
+            let boot = boot(&file("page-4.js"), &file("page-5.wasm"), is_kept).unwrap();
+            assert!(boot.contains("\"./page-4.js\""), "{boot}");
+            assert!(boot.contains("\"./page-5.wasm\""), "{boot}");
+            assert_eq!(boot.contains("serviceWorker"), is_kept, "{boot}");
+        }
+    }
+
+    #[test]
+    fn the_document_says_what_it_is() {
+        let html = page(TEMPLATE).unwrap();
+        assert!(html.contains(r#"<meta name="version" content="1.2.3+abcd">"#), "{html}");
+        assert!(html.contains(r#"<meta name="edition" content="hosted">"#), "{html}");
+        assert!(html.contains(r#"<meta name="one-file" content="./buslens.html 1234">"#), "{html}");
     }
 }

@@ -1,10 +1,11 @@
 //! A browser with the page in it, as the tests in `tests/` use it.
 //!
 //! `cargo xtask test` builds the page, serves it, starts a WebDriver and runs the tests with what
-//! they need in the environment: `BUSLENS_URL`, `WEBDRIVER_URL`, `BUSLENS_CHROMIUM`, `BUSLENS_AXE`
-//! and `BUSLENS_SCREENSHOTS`.
+//! they need in the environment: `BUSLENS_URL`, `BUSLENS_DIST`, `WEBDRIVER_URL`, `BUSLENS_CHROMIUM`,
+//! `BUSLENS_AXE` and `BUSLENS_SCREENSHOTS`.
 
 mod fields;
+mod site;
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -12,6 +13,8 @@ use std::time::Duration;
 use serde_json::{Value, json};
 use thirtyfour::LoggingPrefsLogLevel;
 use thirtyfour::prelude::*;
+
+pub use site::{Files, Site, dist, next_version, version};
 
 /// What a step of a test gives; the error says what went wrong.
 pub type Result<T = ()> = WebDriverResult<T>;
@@ -28,6 +31,8 @@ pub const VIEWS: [&str; 5] = ["#/read", "#/build", "#/check", "#/devices", "#/sh
 /// A page of its own in a browser of its own.
 pub struct Page {
     pub driver: WebDriver,
+    /// What its browser keeps, and by which it is known among others.
+    profile: tempfile::TempDir,
 }
 
 impl Page {
@@ -37,7 +42,20 @@ impl Page {
     }
 
     /// Opens a view of the page, or a link.
-    pub async fn open_at(fragment: &str, (width, height): (u32, u32), dark: bool) -> Result<Self> {
+    pub async fn open_at(fragment: &str, size: (u32, u32), dark: bool) -> Result<Self> {
+        Self::open_address(&format!("{}{fragment}", setting("BUSLENS_URL")), size, dark).await
+    }
+
+    /// Opens the page where it is by another address.
+    pub async fn open_address(address: &str, size: (u32, u32), dark: bool) -> Result<Self> {
+        let page = Self::empty(size, dark).await?;
+        page.driver.goto(address).await?;
+        page.one("main > *").await?;
+        Ok(page)
+    }
+
+    /// A browser without the page.
+    pub async fn empty((width, height): (u32, u32), dark: bool) -> Result<Self> {
         let mut options = DesiredCapabilities::chrome();
         options.set_binary(&setting("BUSLENS_CHROMIUM"))?;
         for argument in [
@@ -51,6 +69,8 @@ impl Page {
         ] {
             options.add_arg(argument)?;
         }
+        let profile = tempfile::tempdir()?;
+        options.add_arg(&format!("--user-data-dir={}", profile.path().display()))?;
         options.set_browser_log_level(LoggingPrefsLogLevel::All)?;
         let driver = WebDriver::new(&setting("WEBDRIVER_URL"), options).await?;
         let metrics =
@@ -58,10 +78,7 @@ impl Page {
         driver.cdp().send_raw("Emulation.setDeviceMetricsOverride", metrics).await?;
         let scheme = json!({ "name": "prefers-color-scheme", "value": if dark { "dark" } else { "light" } });
         driver.cdp().send_raw("Emulation.setEmulatedMedia", json!({ "features": [scheme] })).await?;
-        let page = Self { driver };
-        page.driver.goto(format!("{}{fragment}", setting("BUSLENS_URL"))).await?;
-        page.one("main > *").await?;
-        Ok(page)
+        Ok(Self { driver, profile })
     }
 
     /// Loads the page anew, with another view or a link.
@@ -245,6 +262,33 @@ impl Page {
         found.convert()
     }
 
+    /// How much memory the page has with its workers, in MB, where the system tells.
+    pub fn memory(&self) -> Option<u64> {
+        let read = |process: u64, file: &str| std::fs::read_to_string(format!("/proc/{process}/{file}")).ok();
+        let status = |process, key: &str| {
+            let text = read(process, "status")?;
+            text.lines()
+                .find_map(|line| line.strip_prefix(key)?.split_whitespace().next()?.parse::<u64>().ok())
+        };
+        let all: Vec<u64> = std::fs::read_dir("/proc")
+            .ok()?
+            .filter_map(|entry| entry.ok()?.file_name().to_str()?.parse().ok())
+            .collect();
+        let own = format!("--user-data-dir={}", self.profile.path().display());
+        let started =
+            |process: u64, word: &str| read(process, "cmdline").is_some_and(|line| line.contains(word));
+        // The browser, what it started, and what that started.
+        let mut family: Vec<u64> =
+            all.iter().copied().filter(|it| started(*it, &own) && !started(*it, "--type=")).collect();
+        let mut next = 0;
+        while let Some(parent) = family.get(next).copied() {
+            next += 1;
+            family.extend(all.iter().copied().filter(|it| status(*it, "PPid:") == Some(parent)));
+        }
+        let renderers = family.into_iter().filter(|it| started(*it, "--type=renderer"));
+        Some(renderers.filter_map(|it| status(it, "VmRSS:")).sum::<u64>() / 1024)
+    }
+
     /// What came to the browser's console since the last look.
     pub async fn console(&self) -> Result<Vec<String>> {
         let entries = self.driver.browser_log().await?;
@@ -267,7 +311,8 @@ impl Page {
             tokio::time::sleep(Duration::from_millis(25)).await;
             let found = std::fs::read_dir(&folder)?.flatten().map(|entry| entry.path());
             let whole = |path: &PathBuf| {
-                path.extension().is_some_and(|it| it == "txt" || it == "csv" || it == "jsonl")
+                let ends = ["txt", "csv", "jsonl", "html", "pcapng", "log"];
+                path.extension().is_some_and(|it| ends.iter().any(|end| it == *end))
             };
             if let Some(path) = found.into_iter().find(whole) {
                 return Ok(path);
@@ -280,6 +325,14 @@ impl Page {
         self.settle().await?;
         let script =
             "navigator.clipboard.readText().then(arguments[0], (error) => arguments[0](String(error)))";
+        self.driver.execute_async(script, vec![]).await?.convert()
+    }
+
+    /// What is on the clipboard for programs that show HTML.
+    pub async fn clipboard_html(&self) -> Result<String> {
+        self.settle().await?;
+        let script = "navigator.clipboard.read().then(([item]) => item.getType('text/html')).then((it) => it.text())\
+                      .then(arguments[0], (error) => arguments[0](String(error)))";
         self.driver.execute_async(script, vec![]).await?.convert()
     }
 

@@ -41,14 +41,14 @@ async fn the_telegrams_of_read_are_on_the_sheet_and_in_files() -> Result {
         let file = page.saved(&format!(".tools [role=menuitem]:nth-child({})", at + 1)).await?;
         Ok::<String, thirtyfour::prelude::WebDriverError>(std::fs::read_to_string(file)?)
     };
-    let lines = save("JSON Lines, for programs").await?;
+    let lines = save("JSON Lines").await?;
     let lines: Vec<Value> = lines.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
     assert_eq!(lines.len(), 5);
     assert_eq!(lines[1]["device"][0]["value"], json!(123.456));
     assert_eq!(lines[4]["summary"]["check_failed"], json!(1));
-    let table = save("CSV, for a spreadsheet").await?;
+    let table = save("CSV: a row for each telegram").await?;
     assert_eq!(table.lines().count(), 5);
-    let text = save("Text, for a mail or a ticket").await?;
+    let text = save("Text: every telegram with its fields").await?;
     assert!(text.contains("4. Modbus RTU response to 3") && text.contains("Perhaps: "), "{text}");
     page.close().await
 }

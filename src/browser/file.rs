@@ -4,7 +4,7 @@ use leptos::prelude::*;
 use leptos::wasm_bindgen::JsCast;
 use wasm_bindgen_futures::JsFuture;
 use web_sys::js_sys::Array;
-use web_sys::{Blob, File, HtmlAnchorElement, HtmlInputElement, Url};
+use web_sys::{Blob, BlobPropertyBag, File, HtmlAnchorElement, HtmlInputElement, Url};
 
 /// Why a file has no text for us.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -72,4 +72,11 @@ pub fn save_blob(name: &str, blob: &Blob) {
         link.click();
     }
     let _ = Url::revoke_object_url(&address);
+}
+
+/// A file of these parts, each a run of bytes.
+pub fn blob(parts: &Array, kind: &str) -> Option<Blob> {
+    let bag = BlobPropertyBag::new();
+    bag.set_type(kind);
+    Blob::new_with_u8_array_sequence_and_options(parts, &bag).ok()
 }

@@ -2,6 +2,7 @@
 
 pub mod clipboard;
 pub mod compression;
+pub mod edition;
 pub mod file;
 pub mod kept_file;
 pub mod panic;

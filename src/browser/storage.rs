@@ -38,6 +38,21 @@ pub fn kept(key: &str) -> Option<String> {
     storage()?.get_item(&name(key)).ok()?
 }
 
+/// Keeps `value` for this tab alone, which is about to be loaded anew: what is kept for all tabs may be of
+/// another one.
+pub fn keep_for_reload(key: &str, value: &str) -> Result<(), NotKept> {
+    let storage = window().session_storage().ok().flatten().ok_or(NotKept::Denied)?;
+    storage.set_item(&name(key), value).map_err(|_| NotKept::Full)
+}
+
+/// What was kept for this tab, once.
+pub fn kept_for_reload(key: &str) -> Option<String> {
+    let storage = window().session_storage().ok()??;
+    let kept = storage.get_item(&name(key)).ok()??;
+    let _ = storage.remove_item(&name(key));
+    Some(kept)
+}
+
 /// Calls `changed` with the new value whenever another tab keeps something else under the key.
 pub fn on_change(key: &'static str, changed: impl Fn(Option<String>) + 'static) {
     let listener = window_event_listener(ev::storage, move |event| match event.key() {

@@ -237,13 +237,11 @@ fn fields_by_byte(detail: &Detail) -> Vec<&Field> {
     let exact = found.iter().all(|named| {
         (named.span.from..named.span.to).all(|at| over.iter().any(|leaf| leaf.span.contains(at)))
     });
-    let mut all = plain;
-    if exact && over.iter().filter(covered).count() == over.len() {
-        all.extend(found);
-    } else {
-        all.extend(over);
+    let others = if exact && over.iter().filter(covered).count() == over.len() { found } else { over };
+    let mut all: Vec<&Field> = Vec::new();
+    for leaf in plain.into_iter().chain(others) {
+        all.insert(all.partition_point(|before| before.span.from <= leaf.span.from), leaf);
     }
-    all.sort_by_key(|leaf| leaf.span.from);
     all
 }
 

@@ -12,13 +12,19 @@ use buslens::tool::{Explanation, Options};
 
 /// The causes, best first. The first is open.
 #[component]
-pub fn Causes(shown: Shown) -> impl IntoView {
-    let warning = shown.undecidable.as_ref().map(|why| why.sentence() + ".");
+pub fn Causes(
+    shown: Shown,
+    /// Puts the corrected bytes in the place of those that came, where that can be done.
+    #[prop(optional)]
+    on_use: Option<Callback<Vec<u8>>>,
+) -> impl IntoView {
+    let warning = shown.report.undecidable(shown.index).map(|why| why.sentence() + ".");
     let causes: Vec<_> = shown
-        .causes
-        .iter()
+        .report
+        .explanations(shown.index)
+        .into_iter()
         .enumerate()
-        .map(|(index, cause)| view! { <Cause shown=shown.clone() cause=cause.clone() open=index == 0 /> })
+        .map(|(index, cause)| view! { <Cause shown=shown.clone() cause open=index == 0 on_use /> })
         .collect();
     (!causes.is_empty()).then(|| {
         view! {
@@ -32,7 +38,7 @@ pub fn Causes(shown: Shown) -> impl IntoView {
 }
 
 #[component]
-fn Cause(shown: Shown, cause: Explanation, open: bool) -> impl IntoView {
+fn Cause(shown: Shown, cause: Explanation, open: bool, on_use: Option<Callback<Vec<u8>>>) -> impl IntoView {
     let found = shown.bytes().to_vec();
     let right = cause.hypothesis.bytes.clone();
     let options = Options {
@@ -42,23 +48,44 @@ fn Cause(shown: Shown, cause: Explanation, open: bool) -> impl IntoView {
     };
     let both = Link { telegram: 1, ..Link::to(format!("{}\n{}", hex(&found), hex(&right)), options) };
     let title = cause.hypothesis.text(&found).sentence() + ".";
-    let odds = format!("Chance of a false match: {}. {}.", cause.hypothesis.odds(), cause.sense().sentence());
+    // What fits anything says nothing for itself.
+    let odds = match cause.hypothesis.odds().to_string() {
+        odds if odds == "always" => "always possible".to_owned(),
+        odds => format!("{odds} by chance"),
+    };
+    let sense = cause.sense().sentence() + ".";
     let copied = hex(&right);
     let said = cause.said.sentence() + ".";
+    let used = right.clone();
+    let use_it = on_use.map(|on_use| {
+        view! {
+            <button type="button" class="button main" on:click=move |_| on_use.run(used.clone())>
+                "Use the corrected telegram"
+            </button>
+        }
+    });
     view! {
         <li>
             <details open=open>
-                <summary>{title}</summary>
+                <summary>
+                    <span>{title}</span>
+                    " "
+                    <span class="odds">{odds}</span>
+                </summary>
                 <div class="compared">
                     <span>"Received"</span>
                     <Marked bytes=found spans=cause.removed.clone() class="bad" />
                     <span>"Corrected"</span>
                     <Marked bytes=right spans=cause.added.clone() class="good" />
+                    <span>"Meaning"</span>
+                    <p>
+                        <strong>{said}</strong>
+                        " "
+                        <span class="note">{sense}</span>
+                    </p>
                 </div>
-                <p>"Meaning: " <strong>{said}</strong></p>
-                <p class="note">{odds}</p>
                 <div class="acts">
-                    <CopyButton text=copied label="Copy the corrected bytes" class="low" />
+                    {use_it} <CopyButton text=copied label="Copy the corrected bytes" class="low" />
                     <a class="button low" href=href(View::Read, &both)>"Compare both"</a>
                 </div>
             </details>

@@ -8,8 +8,8 @@ use super::icon::Glyph;
 use super::menu::{Menu, MenuItem};
 use super::telegram::Shown;
 use super::toast::Toasts;
+use crate::later;
 use buslens::tool::copy::{FORMATS, Format};
-use buslens::tool::json;
 
 /// A menu of formats, with one more where the line carries characters.
 #[component]
@@ -36,6 +36,16 @@ pub fn CopyAs(shown: Shown, #[prop(optional)] at_end: bool) -> impl IntoView {
         });
         view! { <MenuItem on_choose=choose>{format.label}</MenuItem> }
     };
+    let as_json = Callback::new(move |()| {
+        spawn_local(async move {
+            match later::json(shown.get_value()).await {
+                Ok(text) => give(text),
+                Err(later::NotLoaded) => {
+                    toasts.say("What writes JSON could not be loaded: check the connection.")
+                }
+            }
+        });
+    });
     view! {
         <Menu label="Copy as" glyph=Glyph::Copy at_end=at_end>
             {FORMATS.iter().map(entry).collect_view()}
@@ -47,12 +57,7 @@ pub fn CopyAs(shown: Shown, #[prop(optional)] at_end: bool) -> impl IntoView {
                         view! { <MenuItem on_choose=choose>"Characters"</MenuItem> }
                     })
             }}
-            {move || {
-                // Text and numbers always make JSON.
-                let json = move || shown.with_value(|it| json::line(&it.report, it.index, true)).unwrap_or_default();
-                let choose = Callback::new(move |()| give(json()));
-                view! { <MenuItem on_choose=choose>"JSON, with its fields"</MenuItem> }
-            }}
+            <MenuItem on_choose=as_json>"JSON, with its fields"</MenuItem>
         </Menu>
     }
 }

@@ -7,7 +7,14 @@ use super::icon::{Glyph, Icon};
 
 /// A dialog that is open as long as `open` is true.
 #[component]
-pub fn Dialog(open: RwSignal<bool>, #[prop(into)] title: String, children: ChildrenFn) -> impl IntoView {
+pub fn Dialog(
+    open: RwSignal<bool>,
+    #[prop(into)] title: String,
+    /// `drawer`: at the side, as high as the page.
+    #[prop(into, optional)]
+    class: String,
+    children: ChildrenFn,
+) -> impl IntoView {
     let dialog = NodeRef::<html::Dialog>::new();
     Effect::new(move || {
         let Some(dialog) = dialog.get() else { return };
@@ -20,7 +27,7 @@ pub fn Dialog(open: RwSignal<bool>, #[prop(into)] title: String, children: Child
     });
     let name = title.clone();
     view! {
-        <dialog node_ref=dialog class="dialog" aria-label=name on:close=move |_| open.set(false)>
+        <dialog node_ref=dialog class=format!("dialog {class}") aria-label=name on:close=move |_| open.set(false)>
             <header>
                 <h2>{title}</h2>
                 <button

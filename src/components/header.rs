@@ -10,8 +10,10 @@ use super::copy_button::copy;
 use super::dialog::Dialog;
 use super::icon::{Glyph, Icon};
 use super::menu::{Menu, MenuItem};
+use super::page_menu::PageMenu;
 use super::toast::Toasts;
 use crate::address::{Address, View};
+use crate::browser::edition::{Edition, edition};
 use crate::browser::storage;
 use crate::browser::typing::is_typed_into;
 
@@ -58,6 +60,7 @@ pub fn Header() -> impl IntoView {
                 <CopyLink />
                 <Theme />
                 <Keys />
+                <PageMenu />
             </div>
         </header>
     }
@@ -74,7 +77,12 @@ fn CopyLink() -> impl IntoView {
                 Err(why) => return toasts.say(why.sentence()),
             };
             if copy(toasts, link).await {
-                toasts.say("Link copied. It contains everything shown; nothing is sent to a server.");
+                toasts.say(match edition() {
+                    Edition::OneFile => {
+                        "Link copied. It leads to this file, and so works on this computer only."
+                    }
+                    _ => "Link copied. It contains everything shown; nothing is sent to a server.",
+                });
             }
         });
     };

@@ -26,6 +26,7 @@ pub enum Glyph {
     Link,
     Lock,
     Mail,
+    More,
     Open,
     Pause,
     Play,
@@ -71,6 +72,10 @@ impl Glyph {
             }
             Self::Lock => "M4.5 7h7v6.5h-7zM5.5 7V5a2.5 2.5 0 0 1 5 0v2",
             Self::Mail => "M2 4h12v8.5H2zM2 4.5l6 4.5 6-4.5",
+            Self::More => {
+                "M3 7.5a.5.5 0 1 1 0 1 .5.5 0 0 1 0-1zM8 7.5a.5.5 0 1 1 0 1 .5.5 0 0 1 0-1zM13 7.5a.5.5 0 1 1 0 1 .5.5 0 0 \
+                 1 0-1z"
+            }
             Self::Open => "M8 10V2.5M5 5.5l3-3 3 3M2.5 10v3.5h11V10",
             Self::Pause => "M5.5 3.5v9M10.5 3.5v9",
             Self::Play => "M5 3.5v9l7-4.5z",

@@ -128,3 +128,14 @@ pub fn MenuItem(on_choose: Callback<()>, children: Children) -> impl IntoView {
         </button>
     }
 }
+
+/// One place to go to.
+#[component]
+pub fn MenuLink(href: &'static str, children: Children) -> impl IntoView {
+    let Opened(open) = expect_context();
+    view! {
+        <a href=href role="menuitem" tabindex="-1" on:click=move |_| open.set(false)>
+            {children()}
+        </a>
+    }
+}

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use buslens::field::{Message, hex};
+use buslens::field::hex;
 use buslens::tool::link::Link;
-use buslens::tool::{Detail, Explanation, Options, Report, Telegram};
+use buslens::tool::{Detail, Options, Report, Telegram};
 
 /// A telegram with all its details. Parts of the page hand it on, so it is shared.
 #[derive(Clone, Debug)]
@@ -19,10 +19,6 @@ pub struct Details {
     pub detail: Detail,
     /// How it was read.
     pub options: Options,
-    /// Possible causes where its check failed, best first.
-    pub causes: Vec<Explanation>,
-    /// Why that cannot be told, if so.
-    pub undecidable: Option<Message>,
 }
 
 impl std::ops::Deref for Shown {
@@ -48,8 +44,6 @@ impl Shown {
             telegram: report.telegrams.get(index)?.clone(),
             detail: report.detail(index)?,
             options: options.clone(),
-            causes: report.explanations(index),
-            undecidable: report.undecidable(index),
         })))
     }
 }

@@ -3,5 +3,6 @@
 pub mod build;
 pub mod check;
 pub mod devices;
+pub mod outgoing;
 pub mod read;
 pub mod sheet;

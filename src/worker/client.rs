@@ -4,20 +4,26 @@ use std::cell::{Cell, RefCell};
 use std::rc::{Rc, Weak};
 
 use gloo_timers::callback::Timeout;
-use leptos::prelude::document;
 use leptos::task::spawn_local;
 use wasm_bindgen::closure::Closure;
+use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_futures::JsFuture;
 use web_sys::js_sys::{Array, Uint8Array};
-use web_sys::{
-    Blob, BlobPropertyBag, Event, HtmlScriptElement, MessageEvent, Worker, WorkerOptions, WorkerType,
-};
+use web_sys::{Blob, Event, MessageEvent, Worker};
 
 use super::mail;
 use super::messages::{Answer, How, Request};
 use super::reader::Reader;
+use crate::browser::file;
 use buslens::tool::log::{Log, Source};
+
+#[wasm_bindgen]
+extern "C" {
+    /// Only the boot script knows where the module is: in files of a server, or in the document.
+    #[wasm_bindgen(js_name = startWorker, catch)]
+    fn start_worker() -> Result<Worker, JsValue>;
+}
 
 /// What is not larger is read where the page is, within a frame; the rest in the worker.
 pub const SMALL: usize = 1 << 16;
@@ -60,6 +66,8 @@ impl Drop for Running {
 /// A worker that says nothing for so long, in milliseconds, although it was asked, is gone: a browser
 /// that is short of memory may end it without a word.
 const PATIENCE: u32 = 30_000;
+/// The same where a file of all telegrams is written.
+const PATIENCE_WITH_FILES: u32 = 300_000;
 
 /// A small file.
 struct Memory(Vec<u8>);
@@ -131,11 +139,14 @@ impl Client {
         match (&mut *self.here.borrow_mut(), &request) {
             (Some(reader), Request::Export { kind, notes }) => {
                 let parts = Array::new();
-                reader.export(*kind, notes, &mut |text| _ = parts.push(&text.into()));
-                let bag = BlobPropertyBag::new();
-                bag.set_type(kind.file().1);
-                exported = Blob::new_with_str_sequence_and_options(&parts, &bag).ok();
+                reader.export(*kind, notes, &mut |part| _ = parts.push(&Uint8Array::from(part)));
+                exported = file::blob(&parts, kind.file().1);
                 answers.push(Answer::Exported(*kind));
+            }
+            (Some(reader), Request::PassOn(hidden)) => {
+                let (file, passed) = reader.pass_on(hidden);
+                exported = file::blob(&Array::of1(&Uint8Array::from(file.as_slice())), "");
+                answers.push(Answer::PassedOn(passed));
             }
             (Some(reader), request) => answers = reader.answer(request),
             (None, request) => {
@@ -157,7 +168,8 @@ impl Client {
         match kept.as_mut() {
             Some(running) => {
                 running.reads = true;
-                running.watch = Some(self.watch());
+                let writes = matches!(request, Request::Export { .. } | Request::PassOn(_));
+                running.watch = Some(self.watch(if writes { PATIENCE_WITH_FILES } else { PATIENCE }));
                 match &mut running.waiting {
                     Some(waiting) => waiting.push(mail),
                     None => drop(running.worker.post_message(&mail)),
@@ -174,11 +186,7 @@ impl Client {
 
     /// Starts the module of the page once more, as a worker.
     fn start(&self) -> Option<Running> {
-        let script = document().query_selector("script[type=module]").ok()??;
-        let script: HtmlScriptElement = script.dyn_into().ok()?;
-        let options = WorkerOptions::new();
-        options.set_type(WorkerType::Module);
-        let worker = Worker::new_with_options(&script.src(), &options).ok()?;
+        let worker = start_worker().ok()?;
         let me = self.me.clone();
         let hear = Closure::<dyn Fn(MessageEvent)>::new(move |event: MessageEvent| {
             if let Some(client) = me.upgrade() {
@@ -207,9 +215,9 @@ impl Client {
     fn heard(&self, event: &MessageEvent) {
         let Some((answer, beside)) = mail::read::<Answer>(&event.data()) else { return self.failed() };
         if let Some(running) = &mut *self.worker.borrow_mut() {
-            running.watch = matches!(answer, Answer::Progress { .. }).then(|| self.watch());
+            running.watch = matches!(answer, Answer::Progress { .. }).then(|| self.watch(PATIENCE));
             if matches!(answer, Answer::Hello) {
-                running.watch = Some(self.watch());
+                running.watch = Some(self.watch(PATIENCE));
                 for mail in running.waiting.take().unwrap_or_default() {
                     // It takes whatever this page writes.
                     let _ = running.worker.post_message(&mail);
@@ -237,9 +245,9 @@ impl Client {
         (self.hear)(Answer::Lost(why.to_owned()), None);
     }
 
-    fn watch(&self) -> Timeout {
+    fn watch(&self, patience: u32) -> Timeout {
         let me = self.me.clone();
-        Timeout::new(PATIENCE, move || {
+        Timeout::new(patience, move || {
             if let Some(client) = me.upgrade() {
                 client.failed();
             }

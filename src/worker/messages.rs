@@ -5,9 +5,11 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use buslens::field::{Direction, Span};
+use buslens::tool::digest::Digest;
 use buslens::tool::link::{keep_settings, kept_settings};
 use buslens::tool::log::{
-    Excerpt, Filter, Held, Input, Lanes, Marks, Numbers, Overview, Place, Reading, Row, Seen,
+    Excerpt, Filter, Held, Hidden, Input, Lanes, Marks, Numbers, Overview, Place, Reading, Redacted,
+    Replaced, Row, Seen,
 };
 use buslens::tool::{Options, Profile, Proposal, Protocol};
 
@@ -117,6 +119,10 @@ pub enum Request {
     Unread,
     /// A line to mark parts in.
     Sample,
+    /// The log in short.
+    Digest,
+    /// The log without what is to be hidden.
+    PassOn(Hidden),
     Export {
         kind: Export,
         notes: BTreeMap<usize, String>,
@@ -145,30 +151,37 @@ pub enum Which {
 /// What the list is written to a file as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Export {
-    /// The summary, for a mail.
-    Summary,
     Text,
     Csv,
     JsonLines,
     JsonLinesWithFields,
     Hex,
+    /// A capture for Wireshark.
+    Capture,
     /// The lines of the log itself.
     Lines,
 }
 
 impl Export {
     /// All that become files.
-    pub const FILES: [Self; 6] =
-        [Self::Text, Self::Csv, Self::JsonLines, Self::JsonLinesWithFields, Self::Hex, Self::Lines];
+    pub const FILES: [Self; 7] = [
+        Self::Text,
+        Self::Csv,
+        Self::JsonLines,
+        Self::JsonLinesWithFields,
+        Self::Capture,
+        Self::Hex,
+        Self::Lines,
+    ];
 
     pub const fn label(self) -> &'static str {
         match self {
-            Self::Summary => "Summary",
             Self::Text => "Text: every telegram with its fields",
             Self::Csv => "CSV: a row for each telegram",
             Self::JsonLines => "JSON Lines",
             Self::JsonLinesWithFields => "JSON Lines with fields",
             Self::Hex => "Bytes as hex",
+            Self::Capture => "Capture for Wireshark (pcapng)",
             Self::Lines => "The lines of the log",
         }
     }
@@ -176,10 +189,10 @@ impl Export {
     /// Name and type of the file.
     pub const fn file(self) -> (&'static str, &'static str) {
         match self {
-            Self::Summary => ("summary.txt", "text/plain"),
             Self::Text | Self::Hex => ("telegrams.txt", "text/plain"),
             Self::Csv => ("telegrams.csv", "text/csv"),
             Self::JsonLines | Self::JsonLinesWithFields => ("telegrams.jsonl", "application/json"),
+            Self::Capture => ("telegrams.pcapng", "application/vnd.tcpdump.pcap"),
             Self::Lines => ("lines.txt", "text/plain"),
         }
     }
@@ -223,8 +236,31 @@ pub enum Answer {
         more: usize,
     },
     Sample(String),
+    Digest(Box<Digest>),
+    /// The file comes beside it.
+    PassedOn(Passed),
     /// A file comes beside it.
     Exported(Export),
+}
+
+impl Passed {
+    /// What there is to say of it, without the file.
+    pub fn of(redacted: Redacted) -> Self {
+        let Redacted { is_capture, replaced, left, unread, .. } = redacted;
+        Self { is_capture, replaced, left, unread }
+    }
+}
+
+/// What there is to say of a log to pass on.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Passed {
+    /// It is a capture, as what was read was one.
+    pub is_capture: bool,
+    pub replaced: Vec<Replaced>,
+    /// Telegrams that stay as they are, since their bytes were not found in the text.
+    pub left: usize,
+    /// Bytes of no telegram, which stay as they are.
+    pub unread: usize,
 }
 
 /// What is behind many errors.

@@ -3,9 +3,10 @@
 
 use std::collections::BTreeMap;
 
-use super::messages::{Answer, Choice, Export, Found, Proposed, Request, Shown, Value, Which};
-use buslens::field::{Direction, Span, hex};
-use buslens::tool::log::{Entry, Finding, Log, Role, Source, time_text};
+use super::messages::{Answer, Choice, Export, Found, Passed, Proposed, Request, Shown, Value, Which};
+use buslens::field::{Span, hex};
+use buslens::tool::digest::Digest;
+use buslens::tool::log::{CaptureFile, Entry, Finding, Hidden, Log, Role, Source};
 use buslens::tool::{annotated, csv, json};
 
 /// How many stretches the timeline has.
@@ -71,7 +72,8 @@ impl<S: Source> Reader<S> {
             Request::Held => vec![Answer::Held(self.log.held(&self.source))],
             Request::Unread => vec![self.unread()],
             Request::Sample => vec![self.sample()],
-            Request::Open(_) | Request::Stop | Request::Export { .. } => Vec::new(),
+            Request::Digest => vec![Answer::Digest(Box::new(self.digest()))],
+            Request::Open(_) | Request::Stop | Request::Export { .. } | Request::PassOn(_) => Vec::new(),
         }
     }
 
@@ -142,65 +144,41 @@ impl<S: Source> Reader<S> {
         Answer::Sample(self.log.text_at(&self.source, offset, LONGEST))
     }
 
+    /// The log in short.
+    fn digest(&self) -> Digest {
+        self.log.digest(&self.source, &self.findings)
+    }
+
+    /// The log without what is to be hidden, and what there is to say of that.
+    pub fn pass_on(&self, hidden: &Hidden) -> (Vec<u8>, Passed) {
+        let mut redacted = self.log.redacted(&self.source, self.size, hidden);
+        (std::mem::take(&mut redacted.file), Passed::of(redacted))
+    }
+
     /// Writes the telegrams of the list, part by part.
-    pub fn export(&self, kind: Export, notes: &BTreeMap<usize, String>, write: &mut dyn FnMut(String)) {
+    pub fn export(&self, kind: Export, notes: &BTreeMap<usize, String>, write: &mut dyn FnMut(&[u8])) {
         /// So many are read at a time.
         const AT_ONCE: usize = 2000;
+        let mut capture = CaptureFile::default();
         match kind {
-            Export::Summary => return write(self.summary()),
-            Export::Csv => write(csv::head()),
-            Export::Text => write(self.summary()),
+            Export::Csv => write(csv::head().as_bytes()),
+            Export::Text => write(self.digest().text(true).as_bytes()),
+            Export::Capture => write(&capture.begin()),
             _ => {}
         }
         for chosen in self.chosen.chunks(AT_ONCE) {
-            write(match kind {
+            let text = match kind {
+                Export::Capture => {
+                    let chosen: Vec<usize> = chosen.iter().map(|index| *index as usize).collect();
+                    write(&capture.telegrams(&self.log, &self.source, &chosen, notes));
+                    continue;
+                }
                 Export::Hex => self.hex(chosen),
                 Export::Lines => self.lines(chosen),
                 _ => self.read(chosen, kind, notes),
-            });
+            };
+            write(text.as_bytes());
         }
-    }
-
-    /// Story, findings with their advice, and the worst telegrams, a line each: to be pasted into a mail.
-    fn summary(&self) -> String {
-        const WORST: usize = 10;
-        let overview = self.log.overview();
-        let mut text = format!("{}\n", overview.headline);
-        for sentence in &overview.story {
-            text += &format!("- {sentence}\n");
-        }
-        if !self.findings.is_empty() {
-            text += "\nWhat the log shows to be wrong:\n";
-            for (number, finding) in (1..).zip(&self.findings) {
-                let count = finding.evidence.len();
-                let noun = if count == 1 { "telegram" } else { "telegrams" };
-                text += &format!("{number}. {}. ({count} {noun})\n", finding.text.sentence());
-            }
-        }
-        let entries = self.log.entries();
-        let mut wrong: Vec<u32> = (0..entries.len() as u32)
-            .filter(|index| self.log.state(&entries[*index as usize]).is_wrong())
-            .collect();
-        let all = wrong.len();
-        wrong.sort_by_key(|index| std::cmp::Reverse(self.log.state(&entries[*index as usize])));
-        wrong.truncate(WORST);
-        wrong.sort_unstable();
-        if !wrong.is_empty() {
-            let of = if all > WORST { format!(" ({WORST} of {all})") } else { String::new() };
-            text += &format!("\nTelegrams to look at{of}:\n");
-            for row in self.log.rows(&self.source, &wrong) {
-                let time = row.time.map_or(String::new(), |time| format!(", {}", time_text(time)));
-                let unit = row.unit.map_or(String::new(), |unit| format!(", unit {unit}"));
-                let arrow = match row.direction {
-                    Some(Direction::Request) => " asked",
-                    Some(Direction::Response) => " answers",
-                    None => "",
-                };
-                text +=
-                    &format!("#{}{time}{unit}{arrow}: {} [{}]\n", row.index + 1, row.said, row.state.word());
-            }
-        }
-        text
     }
 
     fn hex(&self, chosen: &[u32]) -> String {

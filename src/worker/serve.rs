@@ -7,11 +7,12 @@ use wasm_bindgen::{JsCast, JsValue};
 // Leptos has no executor where nothing is mounted.
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::js_sys::{Array, Uint8Array, global};
-use web_sys::{Blob, BlobPropertyBag, DedicatedWorkerGlobalScope, FileReaderSync, MessageEvent};
+use web_sys::{Blob, DedicatedWorkerGlobalScope, FileReaderSync, MessageEvent};
 
 use super::mail;
 use super::messages::{Answer, How, Request};
 use super::reader::Reader;
+use crate::browser::file;
 use buslens::tool::log::{BEGINNING, Log, Source};
 
 /// What is read at a time.
@@ -105,11 +106,16 @@ fn hear(request: Request, beside: JsValue) {
         Request::Export { kind, notes } => DESK.with_borrow(|desk| {
             let Some(reader) = &desk.reader else { return };
             let parts = Array::new();
-            reader.export(kind, &notes, &mut |text| _ = parts.push(&text.into()));
-            let bag = BlobPropertyBag::new();
-            bag.set_type(kind.file().1);
-            if let Ok(blob) = Blob::new_with_str_sequence_and_options(&parts, &bag) {
+            reader.export(kind, &notes, &mut |part| _ = parts.push(&Uint8Array::from(part)));
+            if let Some(blob) = file::blob(&parts, kind.file().1) {
                 tell_with(&Answer::Exported(kind), &blob);
+            }
+        }),
+        Request::PassOn(hidden) => DESK.with_borrow(|desk| {
+            let Some(reader) = &desk.reader else { return };
+            let (file, passed) = reader.pass_on(&hidden);
+            if let Some(blob) = file::blob(&Array::of1(&Uint8Array::from(file.as_slice())), "") {
+                tell_with(&Answer::PassedOn(passed), &blob);
             }
         }),
         request => DESK.with_borrow_mut(|desk| {

@@ -21,6 +21,8 @@ pub enum Build {
     Release,
     /// In a fraction of the time, for work on it: larger, slower, without compressed copies.
     Dev,
+    /// As `Dev`, for `cargo xtask serve`: the browser keeps nothing of it, and there is no single file.
+    Serve,
 }
 
 pub fn run(build: Build) -> Result {
@@ -30,8 +32,10 @@ pub fn run(build: Build) -> Result {
     let page = compile(build)?;
     let mut bundle = Command::new(bundler());
     bundle.arg(DIST).arg(page);
-    if build == Build::Dev {
-        bundle.arg("--dev");
+    match build {
+        Build::Release => {}
+        Build::Dev => drop(bundle.arg("--dev")),
+        Build::Serve => drop(bundle.arg("--serve")),
     }
     steps::run(&mut bundle)?;
     println!("The page is in {DIST}/ after {}.", steps::seconds(start.elapsed()));
@@ -57,7 +61,7 @@ fn bundler() -> PathBuf {
 fn compile(build: Build) -> Result<PathBuf> {
     let profile = match build {
         Build::Release => "page",
-        Build::Dev => "page-dev",
+        Build::Dev | Build::Serve => "page-dev",
     };
     // Parts of the page that differ in their types only are compiled once: a quarter less to download.
     let mut flags = vec![OsString::from("--cfg=erase_components")];

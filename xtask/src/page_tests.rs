@@ -29,6 +29,8 @@ pub fn run(names: &[&str]) -> Result {
         .and_then(|path| std::fs::create_dir_all(&path).map(|()| path))
         .map_err(|error| format!("{} cannot be made: {error}.", screenshots.display()))?;
 
+    let dist = std::path::absolute(build::DIST).map_err(|error| format!("{}: {error}.", build::DIST))?;
+
     // Compiled first, so that no browser waits for the compiler.
     steps::run(tools::cargo().args(["test", "--package", "page-tests", "--no-run"]))?;
 
@@ -44,6 +46,7 @@ pub fn run(names: &[&str]) -> Result {
             .args(names)
             .args(["--", "--show-output"])
             .env("BUSLENS_URL", page)
+            .env("BUSLENS_DIST", &dist)
             .env("WEBDRIVER_URL", format!("http://127.0.0.1:{}", driver.port))
             .env("BUSLENS_CHROMIUM", &browser.chromium)
             .env("BUSLENS_AXE", axe)

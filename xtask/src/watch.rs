@@ -18,7 +18,7 @@ const PAUSE: Duration = Duration::from_millis(300);
 
 pub fn serve(wanted: u16) -> Result {
     let mut built_from = look();
-    build::run(Build::Dev)?;
+    build::run(Build::Serve)?;
 
     let listener = server::listen(wanted)?;
     let port = server::port(&listener)?;
@@ -47,7 +47,7 @@ pub fn serve(wanted: u16) -> Result {
         println!("\nChanged: {}", names(&changed(&built_from, &now)));
         built_from = now;
         let start = Instant::now();
-        match build::run(Build::Dev) {
+        match build::run(Build::Serve) {
             Ok(()) => println!("Reload {address} to see it."),
             Err(sentence) => println!(
                 "{sentence}\nStill serving the page as it was (after {}).",

@@ -1,7 +1,8 @@
 //! What the telegrams of a log say of the devices behind them: which they are, and how their values go.
 
 use buslens::field::hex;
-use buslens::tool::{Options, Profile, decode, proposals, value_findings};
+use buslens::tool::log::{Log, Reading};
+use buslens::tool::{Options, Profile, Settings, decode, proposals, setup, value_findings};
 use buslens::walk::CRC_16_MODBUS;
 
 /// A telegram of Modbus RTU with its check.
@@ -29,6 +30,39 @@ fn findings(device: &str, text: &str) -> Vec<(&'static str, String)> {
 fn proposed(text: &str) -> Vec<(Option<u8>, &'static str, String)> {
     let report = decode(text, Options::default());
     proposals(&report).into_iter().map(|it| (it.unit, it.device.key, it.text.to_string())).collect()
+}
+
+/// A recorder and a drive on one line, each in the words of its manual.
+#[test]
+fn units_are_read_as_their_own_devices() {
+    let text =
+        log(&["01 03 00 C8 00 03", "01 03 06 00 80 42 A4 F1 DE", "03 03 20 34 00 01", "03 03 02 05 DC"]);
+    let report = decode(&text, two_devices());
+    let said = |index: usize| report.detail(index).unwrap().said.to_string();
+    assert!(said(1).contains("Universal channel 1 = 82.4724"), "{}", said(1));
+    assert!(said(3).contains("Set speed"), "{}", said(3));
+    assert!(proposals(&report).is_empty());
+    // What nobody named is read as the device that is chosen for all.
+    let mut settings = two_devices().settings;
+    setup::name_unit(&mut settings, 1, None);
+    let device = Profile::of("memograph-rsg45");
+    let report = decode(&text, Options { device, settings, ..Options::default() });
+    let said = |index: usize| report.detail(index).unwrap().said.to_string();
+    assert!(said(1).contains("Universal channel 1") && said(3).contains("Set speed"), "{}", said(3));
+    // In a log, each unit has its device in the summary.
+    let digest = {
+        let log = Log::read(text.as_bytes(), &Reading::default(), two_devices()).unwrap();
+        log.digest(&text.as_bytes(), &[])
+    };
+    let devices: Vec<&str> = digest.units.iter().map(|unit| unit.device.as_str()).collect();
+    assert_eq!(devices, ["Endress+Hauser Memograph M RSG45", "KEB COMBIVERT F5 on Modbus"]);
+}
+
+fn two_devices() -> Options {
+    let mut settings = Settings::default();
+    setup::name_unit(&mut settings, 1, Profile::of("memograph-rsg45"));
+    setup::name_unit(&mut settings, 3, Profile::of("keb-f5-modbus"));
+    Options { settings, ..Options::default() }
 }
 
 #[test]

@@ -13,6 +13,8 @@ use buslens::tool::{Found, Offer};
 struct Hit {
     found: Found,
     typed: String,
+    /// What a sentence means says its telegram best: what it would say, and with what.
+    told: Option<(String, String)>,
 }
 
 #[component]
@@ -23,7 +25,7 @@ pub fn Finder() -> impl IntoView {
     let hits = Signal::derive(move || {
         let typed = state.query.get();
         let found = state.found().into_iter().take(SHOWN);
-        found.map(|found| Hit { found, typed: typed.clone() }).collect::<Vec<_>>()
+        found.map(|found| Hit { told: state.told(&found), typed: typed.clone(), found }).collect::<Vec<_>>()
     });
     view! {
         <section class="finder" role="search" aria-label="What to build">
@@ -42,7 +44,7 @@ pub fn Finder() -> impl IntoView {
     }
 }
 
-fn hit(Hit { found, typed }: &Hit) -> AnyView {
+fn hit(Hit { found, typed, told }: &Hit) -> AnyView {
     let device = found.device.map_or("any device", |device| device.label);
     let about = match found.offer {
         Offer::Telegram(kind) => format!("function {}", kind.function),
@@ -59,6 +61,7 @@ fn hit(Hit { found, typed }: &Hit) -> AnyView {
     });
     let facts = filled.chain([found.reason.to_string(), about]).filter(|fact| !fact.is_empty());
     let facts = facts.collect::<Vec<_>>().join(", ");
+    let (label, facts) = told.clone().unwrap_or_else(|| (found.label().sentence(), facts));
     let arrow = match found.offer {
         Offer::Telegram(kind) if kind.direction == Direction::Response => Glyph::Back,
         Offer::Service(kind) if kind.direction == Direction::Response => Glyph::Back,
@@ -66,7 +69,7 @@ fn hit(Hit { found, typed }: &Hit) -> AnyView {
     };
     view! {
         <Icon glyph=arrow />
-        <b>{marked(&found.label().sentence(), typed)}</b>
+        <b>{marked(&label, typed)}</b>
         <span class="device">{device}</span>
         <span class="facts">{facts}</span>
     }

@@ -78,7 +78,7 @@ pub fn Making() -> impl IntoView {
             <p class="misfit">{refused}</p>
             <Carrier />
             <div node_ref=form>
-                <Form entries on_edit on_focus flat=&["content"] />
+                <Form entries on_edit on_focus flat=&["content"] named=&["content.status", "status"] />
             </div>
         </section>
     }

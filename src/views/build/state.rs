@@ -9,8 +9,9 @@ use crate::components::byte_strip::Lights;
 use crate::components::form::Edit;
 use crate::components::telegram::Shown;
 use crate::views::devices::DeviceSettings;
-use buslens::field::{Direction, Message, hex};
+use buslens::field::{Direction, Format, Message, hex, leaves};
 use buslens::tool::link::Link;
+use buslens::tool::log::brief;
 use buslens::tool::{
     Editor, Entries, Found, Offer, Options, PROTOCOLS, Profile, Protocol, Settings, decode, offers, search,
 };
@@ -124,6 +125,32 @@ impl BuildState {
         search(&self.query.get(), self.device.get())
     }
 
+    /// What the telegram of a sentence says, and its function and registers; none of what has nothing filled in.
+    pub fn told(&self, found: &Found) -> Option<(String, String)> {
+        if found.entries.is_empty() {
+            return None;
+        }
+        let settings = self.devices.settings();
+        let unit = self.with_editor(Editor::unit).unwrap_or(1);
+        let wished = self.built.with_untracked(|built| built.protocol);
+        let mut editor = found.editor(unit, Some(wished), &settings).ok()?;
+        let bytes = editor.bytes().ok()?;
+        let (protocol, direction) = (editor.protocol, editor.direction);
+        let shown = read(None, &bytes, direction, protocol, &options(found.device, &settings))?;
+        let registers =
+            shown.detail.device.blocks.first().map(|block| block.registers()).filter(|it| !it.is_empty());
+        let registers = registers.map(|registers| match registers.contains(' ') {
+            true => format!("registers {registers}"),
+            false => format!("register {registers}"),
+        });
+        let function = shown.detail.function.map(|function| format!("function {function}"));
+        let blocks = shown.detail.device.blocks.iter().map(|block| std::slice::from_ref(&block.field));
+        let float = blocks.flat_map(leaves).find(|leaf| leaf.spec.format == Format::Float);
+        let float = float.map(|leaf| if leaf.span.len() > 4 { "double" } else { "float" }.to_owned());
+        let facts = [float, registers, function].into_iter().flatten().collect::<Vec<_>>().join(", ");
+        Some((brief(&shown.detail.said), facts))
+    }
+
     /// Builds something else.
     pub fn choose(&self, found: &Found) {
         let settings = self.settings();
@@ -234,7 +261,7 @@ impl BuildState {
     fn show(&self, refused: Option<Message>) {
         let settings = self.settings();
         let device = self.device.get_untracked();
-        let options = Options { device, settings: settings.clone(), ..Options::default() };
+        let options = options(device, &settings);
         let asked = self
             .request
             .try_update_value(|request| request.as_mut().and_then(|request| request.bytes().ok()));
@@ -280,7 +307,7 @@ impl BuildState {
     pub fn shown_reply(&self) -> Option<Shown> {
         let at = self.reply.get();
         let settings = self.devices.settings();
-        let options = Options { device: self.device.get(), settings, ..Options::default() };
+        let options = options(self.device.get(), &settings);
         self.built.with(|built| {
             if built.direction == Direction::Response {
                 return built.telegram.clone();
@@ -319,6 +346,15 @@ impl BuildState {
         self.clear_lights();
         self.show(None);
     }
+}
+
+/// How telegrams are read here: the device that is chosen for them counts more than what units are elsewhere.
+fn options(device: Option<&'static Profile>, settings: &Settings) -> Options {
+    let mut settings = settings.clone();
+    if device.is_some() {
+        settings.units.clear();
+    }
+    Options { device, settings, ..Options::default() }
 }
 
 /// What is built where nobody chose: what most people need first.

@@ -15,7 +15,7 @@ use crate::components::segments::Segments;
 use algorithms::Algorithms;
 use buslens::field::{hex, hex_value};
 use buslens::tool::steps::{Algorithm, CHECKS, MOST};
-use register::{Registers, Why};
+use register::{Registers, Why, Worth};
 pub use state::{CheckState, link_to};
 use state::{Ending, Work};
 use steps::{Bytes, Player, StepList};
@@ -54,6 +54,7 @@ pub fn Check() -> impl IntoView {
                         <Player />
                         <Registers />
                         <Why />
+                        <Worth />
                     </section>
                     <section class="rail" aria-label="Steps and other algorithms">
                         <StepList />

@@ -2,10 +2,10 @@
 
 use leptos::prelude::*;
 
-use super::state::{CheckState, Work};
+use super::state::{CheckState, Ending, Work};
 use super::steps::{place, said};
 use buslens::field::{hex, hex_value};
-use buslens::tool::steps::{Deed, POLYNOMIAL, Step};
+use buslens::tool::steps::{Algorithm, Deed, POLYNOMIAL, Step};
 
 /// A row of bits.
 #[derive(Clone, PartialEq)]
@@ -116,6 +116,101 @@ pub fn Why() -> impl IntoView {
         })
     };
     view! { {why} }
+}
+
+/// What such a check is worth, whatever step is shown.
+#[component]
+pub fn Worth() -> impl IntoView {
+    let state = expect_context::<CheckState>();
+    let work = state.work();
+    let facts = Memo::new(move |_| work.with(|work| facts(work.algorithm)));
+    // Over a whole frame the register ends at 0: that is best seen.
+    let shows =
+        move || work.with(|work| work.algorithm.width == 2 && work.found() == Some(work.wire().as_slice()));
+    let show = move |_| {
+        state.choose_ending(Ending::Data);
+        state.go(usize::MAX);
+    };
+    view! {
+        <section class="worth" aria-labelledby="check-worth">
+            <h3 id="check-worth">{move || facts.get().title}</h3>
+            <dl>
+                {move || {
+                    let part = |(question, answer): (&'static str, &'static str)| {
+                        view! {
+                            <div>
+                                <dt>{question}</dt>
+                                <dd>{answer}</dd>
+                            </div>
+                        }
+                    };
+                    facts.get().parts.into_iter().map(part).collect_view()
+                }}
+            </dl>
+            <Show when=shows>
+                <button type="button" class="button" on:click=show>
+                    "Show it: go on over the CRC"
+                </button>
+            </Show>
+        </section>
+    }
+}
+
+/// What there is to know of a check.
+#[derive(Clone, Copy, PartialEq)]
+struct Worthy {
+    title: &'static str,
+    parts: [(&'static str, &'static str); 3],
+}
+
+fn facts(algorithm: &Algorithm) -> Worthy {
+    match (algorithm.width, algorithm.kind) {
+        (2, _) => Worthy {
+            title: "What the CRC is good for",
+            parts: [
+                (
+                    "What it notices",
+                    "Every single wrong bit, every two of them, every odd number of them, and every run of up \
+                     to 16 bits.",
+                ),
+                ("What it misses", "Of any other damage 1 in 65,536."),
+                (
+                    "How a receiver uses it",
+                    "It goes on over the two bytes of the CRC: a frame whose CRC is valid ends at 0000h.",
+                ),
+            ],
+        },
+        (_, "lrc") => Worthy {
+            title: "What the LRC is good for",
+            parts: [
+                ("What it notices", "Every single wrong bit, and most other damage."),
+                (
+                    "What it misses",
+                    "Bytes that changed places, changes that make up for each other, and of any other damage 1 in \
+                     256.",
+                ),
+                (
+                    "How a receiver uses it",
+                    "It adds up all bytes and the LRC: 00h remains where all of it is right.",
+                ),
+            ],
+        },
+        _ => Worthy {
+            title: "What the FCS is good for",
+            parts: [
+                ("What it notices", "Every single wrong bit, and most other damage."),
+                (
+                    "What it misses",
+                    "Bytes that changed places, changes that make up for each other, and of any other damage 1 in \
+                     256. Each character on the line has a parity bit besides.",
+                ),
+                (
+                    "How a receiver uses it",
+                    "It adds up the bytes from the destination address to the last one of the data, and compares.",
+                ),
+            ],
+        },
+    }
 }
 
 fn why(work: &Work, step: Step, at_end: bool) -> (&'static str, String) {

@@ -2,6 +2,7 @@
 
 mod rows;
 mod state;
+mod units;
 
 use leptos::ev::{self, KeyboardEvent};
 use leptos::html;
@@ -16,6 +17,7 @@ use buslens::tool::PROFILES;
 use buslens::tool::setup::{Difference, List};
 use rows::Rows;
 pub use state::DeviceSettings;
+use units::Units;
 
 #[component]
 pub fn Devices() -> impl IntoView {
@@ -53,6 +55,7 @@ pub fn Devices() -> impl IntoView {
                          follow what is set here. Configuration found in a log takes precedence."
                     </p>
                 </header>
+                <Units />
                 <Modbus />
                 <Profibus />
                 <Others />

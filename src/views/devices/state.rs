@@ -10,7 +10,7 @@ use crate::components::form::Edit;
 use crate::components::toast::Toasts;
 use buslens::tool::link::{Link, keep_settings, kept_settings};
 use buslens::tool::setup::{self, List, What};
-use buslens::tool::{Entries, Options, Settings, settings};
+use buslens::tool::{Entries, Options, Profile, Settings, settings};
 
 /// What Devices shows, and what Read and Build follow.
 #[derive(Clone, Copy)]
@@ -133,6 +133,11 @@ impl DeviceSettings {
 
     pub fn remove_row(&self, list: List, index: usize) {
         self.rework(|settings| list.remove(settings, index));
+    }
+
+    /// Says what a unit is; `None` that nobody knows.
+    pub fn name_unit(&self, unit: u8, device: Option<&'static Profile>) {
+        self.rework(|settings| setup::name_unit(settings, unit, device));
     }
 
     /// Puts one thing back as it is delivered.

@@ -178,9 +178,12 @@ fn Marks() -> impl IntoView {
 fn pieces(text: &str, report: &Report, lit: &[Span]) -> Vec<(String, String, &'static str)> {
     let remarks = report.lines().flat_map(|line| &line.remarks);
     let bad = remarks.filter(|remark| remark.severity == Severity::Error).map(|remark| remark.span);
-    let mut spans: Vec<(Span, &str)> = bad.take(MOST_MARKS).map(|span| (span, "bad")).collect();
-    spans.extend(lit.iter().map(|span| (*span, "lit")));
-    spans.sort_by_key(|(span, _)| span.from);
+    let mut spans: Vec<(Span, &str)> = Vec::new();
+    for (span, class) in
+        bad.take(MOST_MARKS).map(|span| (span, "bad")).chain(lit.iter().map(|span| (*span, "lit")))
+    {
+        spans.insert(spans.partition_point(|(before, _)| before.from <= span.from), (span, class));
+    }
     let mut end = 0;
     let mut pieces = Vec::new();
     for (span, class) in spans {
@@ -202,8 +205,10 @@ fn Remarks(select: Callback<Span>) -> impl IntoView {
     let read = expect_context::<ReadState>();
     move || {
         let report = read.report();
-        let mut remarks: Vec<&Remark> = report.lines().flat_map(|line| &line.remarks).collect();
-        remarks.sort_by_key(|remark| remark.span.from);
+        let mut remarks: Vec<&Remark> = Vec::new();
+        for remark in report.lines().flat_map(|line| &line.remarks) {
+            remarks.insert(remarks.partition_point(|before| before.span.from <= remark.span.from), remark);
+        }
         let total = remarks.len();
         let items: Vec<_> = read.with_settled(|text| {
             let item = |remark: &&Remark| {

@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 
 use super::ReadState;
-use crate::components::icon::Glyph;
+use crate::components::icon::{Glyph, Icon};
 use crate::components::menu::{Menu, MenuItem};
 use buslens::tool::examples::{EXAMPLES, Example, Group};
 
@@ -29,38 +29,54 @@ pub fn Examples() -> impl IntoView {
     }
 }
 
-/// A few examples as buttons, for who has nothing to paste.
+/// The three that show best what Buslens does.
 #[component]
 pub fn FirstExamples() -> impl IntoView {
     let read = expect_context::<ReadState>();
-    let button = move |example: &'static Example| {
-        let load = move |_| read.load_example(example.text, example.device);
-        let first = example.text.lines().next().unwrap_or_default().trim();
-        view! {
-            <li>
-                <button type="button" on:click=load>
-                    <strong>{example.label}</strong>
-                    <code>{first}</code>
-                </button>
-            </li>
+    let load = move |key: &'static str| {
+        move |_| {
+            if let Some(example) = example(key) {
+                read.load_example(example.text, example.device);
+            }
         }
     };
-    let of = |group: Group, count: usize| {
-        EXAMPLES.iter().filter(move |example| example.group == group).take(count).map(button).collect_view()
-    };
-    let load_log = move |_| read.load(LOG.to_owned());
     view! {
         <ul class="first-examples">
-            {of(Group::Devices, 2)} {of(Group::Broken, 2)}
             <li>
-                <button type="button" on:click=load_log>
-                    <strong>"A log of a converter"</strong>
-                    <code>{LOG.lines().next().unwrap_or_default()}</code>
+                <button type="button" on:click=load("memograph_channels")>
+                    <Icon glyph=Glyph::Read />
+                    <strong>"A recorder's channels, read and written"</strong>
+                    <span>"Memograph M RSG45: Universal channel 1 = 82.4724, good"</span>
+                    <Icon glyph=Glyph::ChevronRight />
+                </button>
+            </li>
+            <li>
+                <button type="button" on:click=move |_| read.load(LOG.to_owned())>
+                    <Icon glyph=Glyph::Search />
+                    <strong>"A customer's log: what is wrong here?"</strong>
+                    <span>"104 telegrams, a silent unit, damaged answers: each finding with its advice"</span>
+                    <Icon glyph=Glyph::ChevronRight />
+                </button>
+            </li>
+            <li>
+                <button type="button" on:click=load(FLOW_CONTROL)>
+                    <Icon glyph=Glyph::Check />
+                    <strong>"A wrong CRC, and the byte that was lost"</strong>
+                    <span>"The likely cause, corrected and read"</span>
+                    <Icon glyph=Glyph::ChevronRight />
                 </button>
             </li>
         </ul>
     }
 }
 
+/// The example with this key.
+pub fn example(key: &str) -> Option<&'static Example> {
+    EXAMPLES.iter().find(|example| example.key == key)
+}
+
+/// The key of the example whose byte a converter has swallowed.
+pub const FLOW_CONTROL: &str = "flow_control";
+
 /// A log to try, with what goes wrong in plants.
-const LOG: &str = include_str!("example.log");
+pub const LOG: &str = include_str!("example.log");

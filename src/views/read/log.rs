@@ -14,9 +14,12 @@ use crate::components::byte_strip::Lights;
 use crate::components::telegram::Shown;
 use crate::components::toast::Toasts;
 use crate::worker::client::Client;
-use crate::worker::messages::{self, Answer, Choice, Export, Found, How, Proposed, Request, Value, Which};
+use crate::worker::messages::{
+    self, Answer, Choice, Export, Found, How, Passed, Proposed, Request, Value, Which,
+};
 use buslens::field::many;
 use buslens::tool::Options;
+use buslens::tool::digest::Digest;
 use buslens::tool::log::{Filter, Held, Lanes, Overview, Row, Seen};
 
 /// How many rows are asked for at once: more than are in sight.
@@ -91,6 +94,10 @@ pub struct LogState {
     pub unread: RwSignal<Option<Unread>>,
     /// A line to mark parts in.
     pub sample: RwSignal<String>,
+    /// The log in short, when it was asked for.
+    pub digest: RwSignal<Option<Arc<Digest>>>,
+    /// The log to pass on, when it was asked for.
+    pub passed: RwSignal<Option<(Passed, Blob)>, LocalStorage>,
 }
 
 /// Unread lines: their numbers and text, and how many more there are.
@@ -126,6 +133,8 @@ impl LogState {
             held: RwSignal::default(),
             unread: RwSignal::default(),
             sample: RwSignal::default(),
+            digest: RwSignal::default(),
+            passed: RwSignal::new_local(None),
         }
     }
 
@@ -133,6 +142,13 @@ impl LogState {
     pub fn start(self) {
         let hear = move |answer, beside| self.hear(answer, beside);
         self.client.set_value(Some(Client::new(Rc::new(hear))));
+        // Two tabs with the same log: each hears what is noted in the other.
+        storage::on_change(NOTES, move |kept| {
+            let key = self.key.get_untracked();
+            if let Some(notes) = kept.and_then(|kept| notes_of(&key, &kept)) {
+                self.notes.set(notes);
+            }
+        });
     }
 
     fn client(&self) -> Rc<Client> {
@@ -163,7 +179,8 @@ impl LogState {
             self.key.set(key.to_owned());
             self.filter.set(Filter::default());
             self.forget();
-            self.notes.set(kept_notes(key));
+            let kept = storage::kept(NOTES).unwrap_or_default();
+            self.notes.set(notes_of(key, &kept).unwrap_or_default());
         }
         self.options.set(how.options());
         self.stage.set(Stage::Reading { done: 0.0, of, telegrams: 0, since: Date::now() });
@@ -185,6 +202,8 @@ impl LogState {
         self.held.set(Vec::new());
         self.unread.set(None);
         self.sample.set(String::new());
+        self.digest.set(None);
+        self.passed.set(None);
     }
 
     pub fn ask(&self, request: Request) {
@@ -306,22 +325,6 @@ impl LogState {
         self.ask(Request::Export { kind, notes: self.notes.get_untracked() });
     }
 
-    /// Says that text is copied; the reader wrote it.
-    fn exported(&self, kind: Export, text: Blob) {
-        if kind != Export::Summary {
-            file::save_blob(kind.file().0, &text);
-            return;
-        }
-        let toasts = self.toasts;
-        leptos::task::spawn_local(async move {
-            let text = wasm_bindgen_futures::JsFuture::from(text.text()).await.ok();
-            let text = text.and_then(|text| text.as_string()).unwrap_or_default();
-            if crate::components::copy_button::copy(toasts, text).await {
-                toasts.say("The summary is copied: paste it into the mail.");
-            }
-        });
-    }
-
     fn hear(&self, answer: Answer, beside: Option<Blob>) {
         match answer {
             Answer::Hello => {}
@@ -396,9 +399,11 @@ impl LogState {
             Answer::Held(held) => self.held.set(held),
             Answer::Unread { lines, more } => self.unread.set(Some(Unread { lines, more })),
             Answer::Sample(line) => self.sample.set(line),
+            Answer::Digest(digest) => self.digest.set(Some(Arc::new(*digest))),
+            Answer::PassedOn(passed) => self.passed.set(beside.map(|file| (passed, file))),
             Answer::Exported(kind) => {
                 if let Some(blob) = beside {
-                    self.exported(kind, blob);
+                    file::save_blob(kind.file().0, &blob);
                 }
             }
         }
@@ -419,14 +424,11 @@ impl LogState {
 }
 
 /// The notes on the log `key`, if it was the last one with notes.
-fn kept_notes(key: &str) -> BTreeMap<usize, String> {
-    let kept = storage::kept(NOTES).unwrap_or_default();
-    let Some(notes) = kept.strip_prefix(key).and_then(|rest| rest.strip_prefix('\n')) else {
-        return BTreeMap::new();
-    };
+fn notes_of(key: &str, kept: &str) -> Option<BTreeMap<usize, String>> {
+    let notes = kept.strip_prefix(key)?.strip_prefix('\n')?;
     let note = |line: &str| {
         let (number, text) = line.split_once('\t')?;
         Some((number.parse().ok()?, text.to_owned()))
     };
-    notes.lines().filter_map(note).collect()
+    Some(notes.lines().filter_map(note).collect())
 }

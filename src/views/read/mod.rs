@@ -5,6 +5,7 @@ mod examples;
 mod log;
 mod log_view;
 mod open_file;
+mod pictures;
 mod reading;
 mod start;
 mod state;
@@ -14,20 +15,19 @@ mod times;
 use leptos::ev;
 use leptos::prelude::*;
 
-use crate::address::View;
 use crate::browser::typing::is_typed_into;
 use crate::components::icon::{Glyph, Icon};
-use crate::later::{CouldNotLoad, Later, LaterView, Part};
+use crate::later::{CouldNotLoad, Later, LaterPiece, Part, Piece};
 use editor::Editor;
 use examples::Examples;
 use open_file::OpenFile;
 use reading::{Beside, ProposedDevice, ReadAs, ReadingChoices};
-use start::Start;
-use state::Mode;
+use start::{Start, Welcome};
 use telegrams::Telegrams;
 
 pub use log_view::LogView;
-pub use state::ReadState;
+pub use pictures::Pictures;
+pub use state::{Mode, ReadState};
 
 #[component]
 pub fn Read() -> impl IntoView {
@@ -43,21 +43,46 @@ pub fn Read() -> impl IntoView {
     });
     on_cleanup(move || pasted.remove());
     let has_editor = Memo::new(move |_| read.mode() != Mode::Log || read.editing.get());
+    let starts = Memo::new(move |_| read.mode() == Mode::Start);
+    let is_empty = Memo::new(move |_| read.report().telegrams.is_empty());
     let below = move || match read.mode() {
         Mode::Start => view! { <Start /> }.into_any(),
+        Mode::Telegrams if is_empty.get() => view! { <Nothing /> }.into_any(),
         Mode::Telegrams => view! { <Telegrams /> }.into_any(),
-        Mode::Log => view! { <LaterView part=Part::Log view=View::Read /> }.into_any(),
+        Mode::Log => view! { <LaterPiece piece=Piece::Log /> }.into_any(),
     };
     view! {
-        <Show when=move || has_editor.get()>
-            <Input />
-        </Show>
-        <Show when=move || read.mode() == Mode::Telegrams && later.has_failed(Part::Log)>
-            <CouldNotLoad part=Part::Log>
-                "What reads logs could not be loaded: check the connection. Telegrams can be read one by one."
-            </CouldNotLoad>
-        </Show>
-        {below}
+        <div class="read" class:start=move || starts.get()>
+            <Show when=move || starts.get()>
+                <Welcome />
+            </Show>
+            <Show when=move || has_editor.get()>
+                <Input />
+            </Show>
+            <Show when=move || read.mode() == Mode::Telegrams && later.has_failed(Part::Log)>
+                <CouldNotLoad part=Part::Log>
+                    "What reads logs could not be loaded: check the connection. Telegrams can be read one by one."
+                </CouldNotLoad>
+            </Show>
+            {below}
+        </div>
+    }
+}
+
+/// Where there is no telegram: what was looked for, what the lines tell instead, and what helps.
+#[component]
+fn Nothing() -> impl IntoView {
+    view! {
+        <section class="no-telegram">
+            <h2>"There is no telegram in this text."</h2>
+            <Beside />
+            <p>
+                "Buslens looked for bytes in hex (01 03 00 C8 00 03 84 35, 0103, 0x01, \\x01 …) or decimal, with or without times and words around them, and took for a telegram only what has enough speaking for it."
+            </p>
+            <p>
+                "If a program wrote this text, switch on its debug output of bytes. If you know what the bytes are, choose the protocol above: they are then taken for it."
+            </p>
+        </section>
     }
 }
 
@@ -68,7 +93,9 @@ fn Input() -> impl IntoView {
     view! {
         <section class="input-bar" aria-label="Input">
             <Editor />
-            <Beside />
+            <Show when=move || !read.report().telegrams.is_empty()>
+                <Beside />
+            </Show>
             <div class="input-tools">
                 <ReadAs />
                 <ProposedDevice />

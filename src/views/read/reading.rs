@@ -20,11 +20,11 @@ pub fn ReadAs() -> impl IntoView {
             return None;
         }
         if summary.telegrams == 0 {
+            // What there is instead is said below.
             return Some(
                 view! {
                     <p class="read-as">
-                        <strong class="bad">"There is no telegram in this text."</strong>
-                        " Buslens looked for bytes (hex, decimal, escaped), with or without times and words around them, such as 01 03 00 C8 00 03 84 35. If a program wrote this text, switch on its debug output of bytes."
+                        <strong class="bad">"No telegram found."</strong>
                     </p>
                 }
                 .into_any(),

@@ -1,13 +1,15 @@
-//! What a person sees first.
+//! What a person sees first: where to put things, what to try, and what comes of it.
 
 use leptos::prelude::*;
 
 use super::ReadState;
 use super::examples::FirstExamples;
 use super::open_file::OpenFile;
+use crate::later::{LaterPiece, Piece};
 
+/// What stands over the input.
 #[component]
-pub fn Start() -> impl IntoView {
+pub fn Welcome() -> impl IntoView {
     let read = expect_context::<ReadState>();
     let missing = move || {
         read.missing.get().map(|name| {
@@ -23,22 +25,42 @@ pub fn Start() -> impl IntoView {
         })
     };
     view! {
-        <section class="start">
-            {missing}
-            <h2>"What does this telegram say?"</h2>
-            <p class="lead">
-                "Paste the bytes of a Modbus or PROFIBUS telegram, a whole log, or the mail they came in; or drop a file of any size. Every byte is explained, every checksum verified, every fault named."
+        <section class="welcome">
+            {missing} <h2>"Paste what the bus said. Read what it means."</h2>
+            <p>
+                "Every byte explained, every checksum verified, every fault named, in the words of the device's manual."
             </p>
-            <h3>"Or start with an example"</h3>
-            <FirstExamples />
-            <dl class="kinds">
-                <dt>"Telegrams"</dt>
-                <dd>"01 03 00 C8, 0103, 0x01, \\x01, 01h, [01], :0103…, arrays of C, Python and Rust"</dd>
-                <dt>"Logs"</dt>
-                <dd>"of any program and layout; hex, octal and decimal dumps; one byte a line"</dd>
-                <dt>"Files"</dt>
-                <dd>"raw bytes of a line, captures of networks (pcap, pcapng), up to 2 GB"</dd>
-            </dl>
         </section>
+    }
+}
+
+/// What stands below it, and beside it.
+#[component]
+pub fn Start() -> impl IntoView {
+    view! {
+        <section class="first">
+            <h3>"Or see it work"</h3>
+            <FirstExamples />
+            <p class="note">
+                "More under Examples; or " <a href="#/build">"build a telegram"</a> " by saying what it should do."
+            </p>
+        </section>
+        <div class="pictures">
+            <LaterPiece piece=Piece::Pictures />
+        </div>
+        <dl class="kinds">
+            <div>
+                <dt>"Protocols"</dt>
+                <dd>"Modbus RTU, TCP, ASCII; PROFIBUS-DP"</dd>
+            </div>
+            <div>
+                <dt>"Devices"</dt>
+                <dd>"KEB COMBIVERT F5, Memograph M RSG45"</dd>
+            </div>
+            <div>
+                <dt>"Logs"</dt>
+                <dd>"of any program; hex, octal and decimal dumps; captures (pcap, pcapng); raw bytes; up to 2 GB"</dd>
+            </div>
+        </dl>
     }
 }

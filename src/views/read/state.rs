@@ -20,10 +20,10 @@ use crate::later::{Later, Part as ModulePart};
 use crate::views::devices::DeviceSettings;
 use crate::worker::client::SMALL;
 use crate::worker::messages::{How, Marked, Part};
-use buslens::field::{Direction, Span, count};
+use buslens::field::{Direction, Span, count, hex};
 use buslens::tool::link::Link;
-use buslens::tool::log::{Reading, State};
-use buslens::tool::{Options, Profile, Protocol, Report, decode, decode_file};
+use buslens::tool::log::State;
+use buslens::tool::{Options, Profile, Protocol, Report, decode, decode_pasted};
 
 /// So many telegrams are looked at one by one; more are a log.
 const FEW: usize = 8;
@@ -341,6 +341,21 @@ impl ReadState {
         self.index.set(first_of_interest(&self.report.get_untracked().0));
     }
 
+    /// Puts `bytes` in the place of those of the telegram that is shown.
+    pub fn correct(&self, bytes: Vec<u8>) {
+        let (text, Shared(report)) = (self.settled.get_untracked(), self.report.get_untracked());
+        let index = self.index.get_untracked();
+        let places = report.telegrams.get(index).map(|telegram| telegram.line.places.as_slice());
+        let Some([first, .., last]) = places else { return };
+        let (Some(before), Some(behind)) = (text.get(..first.from), text.get(last.to..)) else { return };
+        let text = format!("{before}{}{behind}", hex(&bytes));
+        self.offer_undo();
+        self.put(text);
+        self.index.set(index);
+        self.address.chosen();
+        self.announce();
+    }
+
     /// Empties the input.
     pub fn clear(&self) {
         self.offer_undo();
@@ -423,6 +438,15 @@ impl ReadState {
             // Where the browser does not keep it, the next visit asks for it by its name.
             let _ = kept_file::keep(&key, &blob).await;
         });
+    }
+
+    /// Keeps the open file for a reload; whether the browser did it. Another tab may have kept its own
+    /// in the meantime.
+    pub async fn keep_file(&self) -> bool {
+        match self.file.get_untracked() {
+            Some(file) => kept_file::keep(&file.key, &file.blob).await,
+            None => true,
+        }
     }
 
     /// Reads the open file once more.
@@ -512,8 +536,7 @@ fn read(text: &str, options: Options) -> Report {
         return decode(text, options);
     }
     // What is no log at all is still looked at, line by line.
-    decode_file(text.as_bytes(), &Reading::default(), options.clone())
-        .unwrap_or_else(|_| decode(text, options))
+    decode_pasted(text, options.clone()).unwrap_or_else(|_| decode(text, options))
 }
 
 fn options(choices: &Choices, devices: DeviceSettings) -> Options {

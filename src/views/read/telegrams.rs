@@ -5,7 +5,6 @@ use leptos::prelude::*;
 use super::ReadState;
 use crate::address::{View, href};
 use crate::components::byte_strip::{ByteStrip, Lights, blocks};
-use crate::components::causes::Causes;
 use crate::components::check_result::CheckResult;
 use crate::components::chosen_byte::ChosenByte;
 use crate::components::copy_as::CopyAs;
@@ -15,8 +14,9 @@ use crate::components::problems::Problems;
 use crate::components::registers::Registers;
 use crate::components::structure::Structure;
 use crate::components::telegram::Shown;
+use crate::later::{LaterPiece, Piece};
 use buslens::field::{Direction, Message};
-use buslens::tool::{Certainty, Profile};
+use buslens::tool::{Certainty, Profile, Verdict};
 
 /// The telegram of the input that is shown.
 #[component]
@@ -27,7 +27,12 @@ pub fn Telegrams() -> impl IntoView {
         Memo::new(move |_| read.shown().map_or(Vec::new(), |shown| blocks(&shown.detail, shown.bytes())));
     let rows =
         Memo::new(move |_| read.shown().map_or(Vec::new(), |shown| rows(&shown.detail, shown.bytes())));
-    let wrong = Memo::new(move |_| read.shown().is_some_and(|shown| !shown.causes.is_empty()));
+    let wrong = Memo::new(move |_| {
+        read.shown().is_some_and(|shown| {
+            // One that is cut may be a misprint of a manual.
+            matches!(shown.telegram.verdict, Verdict::Wrong | Verdict::Unchecked)
+        })
+    });
     let size = Memo::new(move |_| match read.shown().map_or(0, |shown| shown.bytes().len()) {
         ..=24 => "large",
         25..=80 => "",
@@ -42,7 +47,7 @@ pub fn Telegrams() -> impl IntoView {
             <div class="columns">
                 <section class="fields-column" aria-label="Fields">
                     <Show when=move || wrong.get()>
-                        {move || read.shown().map(|shown| view! { <Causes shown /> })}
+                        {move || read.shown().map(|shown| view! { <LaterPiece piece=Piece::Causes(shown) /> })}
                     </Show>
                     <FieldTable rows lights label="Fields" />
                     {move || read.shown().map(|shown| view! { <More shown lights /> })}
@@ -121,7 +126,7 @@ pub fn Kind(shown: Shown) -> impl IntoView {
         })
         .collect();
     let others = (!others.is_empty()).then(|| view! { " It could also be " {others} "." });
-    let device = shown.options.device.map(|device: &Profile| format!(" {}.", device.label));
+    let device = shown.options.device_of(telegram.unit).map(|device: &Profile| format!(" {}.", device.label));
     view! {
         <p class="kind">
             {shown.detail.kind.sentence()} ", " {Message::bytes(shown.bytes().len()).to_string()} "." {device}

@@ -1,18 +1,20 @@
 //! Sheet: what is read, made for paper and as files.
 
+mod exports;
 mod paper;
 
-use leptos::prelude::*;
-use leptos::task::spawn_local;
+use std::sync::Arc;
 
-use crate::browser::file;
-use crate::components::copy_button::copy;
+use leptos::prelude::*;
+
 use crate::components::icon::{Glyph, Icon};
-use crate::components::menu::{Menu, MenuItem};
 use crate::components::segments::Segments;
-use crate::components::toast::Toasts;
-use crate::views::read::ReadState;
-use buslens::tool::{Report, annotated, csv, json};
+use crate::later::{Later, Part};
+use crate::views::outgoing::Summary;
+use crate::views::read::{Mode, ReadState};
+use crate::worker::messages::Request;
+use buslens::tool::digest::Digest;
+use exports::Exports;
 use paper::Paper;
 
 /// What a person wants on the paper.
@@ -20,10 +22,11 @@ use paper::Paper;
 pub struct SheetState {
     /// Such as plant and customer.
     title: RwSignal<String>,
-    spelled_out: RwSignal<SpelledOut>,
+    /// `None` until a person says so.
+    spelled_out: RwSignal<Option<SpelledOut>>,
 }
 
-/// Which telegrams are there field by field, behind the table of all.
+/// Which telegrams are there field by field, behind the first page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpelledOut {
     Wrong,
@@ -33,20 +36,46 @@ pub enum SpelledOut {
 
 impl SheetState {
     pub fn new() -> Self {
-        Self { title: RwSignal::new(String::new()), spelled_out: RwSignal::new(SpelledOut::All) }
+        Self { title: RwSignal::new(String::new()), spelled_out: RwSignal::new(None) }
     }
 }
 
 #[component]
 pub fn Sheet() -> impl IntoView {
+    /// More of them, field by field, nobody reads on paper.
+    const FEW: usize = 10;
     let state = expect_context::<SheetState>();
     let read = expect_context::<ReadState>();
     let report = Signal::derive(move || read.report());
+    let is_log = Memo::new(move |_| read.mode() == Mode::Log);
     let options = vec![
         (SpelledOut::All, "Every telegram".to_owned()),
         (SpelledOut::Wrong, "Only what is wrong".to_owned()),
         (SpelledOut::None, "No fields".to_owned()),
     ];
+    let count = Memo::new(move |_| report.with(|report| report.telegrams.len()));
+    let spelled_out = Signal::derive(move || {
+        let usual = if count.get() <= FEW { SpelledOut::All } else { SpelledOut::Wrong };
+        state.spelled_out.get().unwrap_or(usual)
+    });
+    // Of a log its reader knows, once it has read it.
+    let later = expect_context::<Later>();
+    Effect::new(move || {
+        if is_log.get() {
+            later.load(Part::Log);
+        }
+        if is_log.get() && read.log.overview.with(Option::is_some) {
+            read.log.ask(Request::Digest);
+        }
+    });
+    let digest = Signal::derive(move || {
+        let digest = match is_log.get() {
+            true => (*read.log.digest.get()?).clone(),
+            false => report.with(|report| report.digest()),
+        };
+        Some(Arc::new(Digest { title: read.file_name().unwrap_or_default(), ..digest }))
+    });
+    let summary = RwSignal::new(false);
     view! {
         <div class="sheet">
             <section class="tools" aria-label="Print or export">
@@ -61,15 +90,17 @@ pub fn Sheet() -> impl IntoView {
                         on:input=move |event| state.title.set(event_target_value(&event))
                     />
                 </label>
-                <div class="choice">
-                    <span aria-hidden="true">"Field by field"</span>
-                    <Segments
-                        label="Field by field"
-                        options
-                        value=state.spelled_out
-                        on_choose=Callback::new(move |chosen| state.spelled_out.set(chosen))
-                    />
-                </div>
+                <Show when=move || count.get() != 0>
+                    <div class="choice">
+                        <span aria-hidden="true">"Field by field"</span>
+                        <Segments
+                            label="Field by field"
+                            options=options.clone()
+                            value=spelled_out
+                            on_choose=Callback::new(move |chosen| state.spelled_out.set(Some(chosen)))
+                        />
+                    </div>
+                </Show>
                 <div class="actions">
                     <button
                         type="button"
@@ -82,67 +113,19 @@ pub fn Sheet() -> impl IntoView {
                         <Icon glyph=Glyph::Print />
                         "Print"
                     </button>
-                    <Exports report />
+                    <button type="button" class="button" on:click=move |_| summary.set(true)>
+                        <Icon glyph=Glyph::Mail />
+                        "Copy summary for a mail"
+                    </button>
+                    <Exports report is_log />
                     <a class="button plain" href="#/read">
                         <Icon glyph=Glyph::Back />
                         "Back to Read"
                     </a>
                 </div>
             </section>
-            <Paper report title=state.title spelled_out=state.spelled_out />
+            <Summary open=summary digest />
+            <Paper report digest=digest.into() is_log=is_log.into() title=state.title spelled_out />
         </div>
-    }
-}
-
-/// A kind of file.
-struct File {
-    name: &'static str,
-    label: &'static str,
-    write: fn(&Report) -> String,
-}
-
-static FILES: [File; 4] = [
-    File { name: "telegrams.txt", label: "Text, for a mail or a ticket", write: annotated::text },
-    File { name: "telegrams.csv", label: "CSV, for a spreadsheet", write: csv::table },
-    File {
-        name: "telegrams.jsonl",
-        label: "JSON Lines, for programs",
-        // Text and numbers always make JSON.
-        write: |report| json::lines(report, false).unwrap_or_default(),
-    },
-    File {
-        name: "telegrams-with-fields.jsonl",
-        label: "JSON Lines with every field",
-        write: |report| json::lines(report, true).unwrap_or_default(),
-    },
-];
-
-/// The telegrams as files, to be saved or copied.
-#[component]
-fn Exports(report: Signal<std::sync::Arc<Report>>) -> impl IntoView {
-    let toasts = expect_context::<Toasts>();
-    let text = move |file: &File| report.with_untracked(|report| (file.write)(report));
-    let save = move |file: &'static File| {
-        let choose = Callback::new(move |()| file::save(file.name, &text(file)));
-        view! { <MenuItem on_choose=choose>{file.label}</MenuItem> }
-    };
-    let take = move |file: &'static File| {
-        let choose = Callback::new(move |()| {
-            let text = text(file);
-            spawn_local(async move {
-                if copy(toasts, text).await {
-                    toasts.say("Copied.");
-                }
-            });
-        });
-        view! { <MenuItem on_choose=choose>{file.label}</MenuItem> }
-    };
-    view! {
-        <Menu label="Save as" glyph=Glyph::Save>
-            {FILES.iter().map(save).collect_view()}
-        </Menu>
-        <Menu label="Copy as" glyph=Glyph::Copy>
-            {FILES.iter().map(take).collect_view()}
-        </Menu>
     }
 }

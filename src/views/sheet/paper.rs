@@ -8,8 +8,10 @@ use web_sys::js_sys::Date;
 use super::SpelledOut;
 use crate::components::byte_strip::{blocks, role_class};
 use crate::components::state_badge::StateBadge;
+use crate::views::outgoing::DigestView;
 use crate::views::read::ReadState;
 use buslens::field::{Direction, Field, Message, Severity, hex, many};
+use buslens::tool::digest::Digest;
 use buslens::tool::{Detail, Report, Telegram, Verdict, annotated};
 
 /// More rows are for a file, not for paper.
@@ -20,6 +22,9 @@ const MOST_SPELLED_OUT: usize = 200;
 #[component]
 pub fn Paper(
     report: Signal<Arc<Report>>,
+    /// What was read in short, once that is known.
+    digest: Signal<Option<Arc<Digest>>>,
+    is_log: Signal<bool>,
     #[prop(into)] title: Signal<String>,
     #[prop(into)] spelled_out: Signal<SpelledOut>,
 ) -> impl IntoView {
@@ -33,12 +38,19 @@ pub fn Paper(
             <header>
                 <h2>{if shown.is_empty() { "Field-bus telegrams".to_owned() } else { shown }}</h2>
                 <p>{facts.join(" · ")}</p>
-                <p>{report.with(|report| annotated::summary(report).trim_end().to_owned())}</p>
+                {(!is_log.get())
+                    .then(|| view! { <p>{report.with(|report| annotated::summary(report).trim_end().to_owned())}</p> })}
             </header>
         }
     };
     let count = Memo::new(move |_| report.with(|report| report.telegrams.len()));
-    let table = move || report.with(|report| table(report));
+    // What matters of a log comes first, and says more than a table of all.
+    let short = move || {
+        let digest = digest.get().filter(|_| is_log.get())?;
+        let digest = Arc::new(Digest { title: String::new(), ..(*digest).clone() });
+        Some(view! { <DigestView digest with_bytes=true /> })
+    };
+    let table = move || (!is_log.get()).then(|| report.with(|report| table(report)));
     let details = move || {
         let report = report.get();
         let wanted = |index: &usize| match spelled_out.get() {
@@ -62,9 +74,10 @@ pub fn Paper(
         <article class="paper" aria-label="What is printed">
             {head}
             <Show
-                when=move || count.get() != 0
+                when=move || count.get() != 0 || is_log.get()
                 fallback=|| view! { <p>"Nothing to print yet. Paste telegrams in Read first."</p> }
             >
+                {short}
                 {table}
                 {details}
             </Show>

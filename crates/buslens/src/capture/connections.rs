@@ -24,7 +24,7 @@ impl Connection {
 pub struct Segment<'a> {
     /// Microseconds since 1970, or as a text says.
     pub time: Option<i64>,
-    /// Number of the connection, from 0.
+    /// Number of the connection, from 0; one that no connection has for a serial line.
     pub connection: usize,
     pub from_client: bool,
     /// The ports of client and server.
@@ -38,6 +38,26 @@ pub struct Segment<'a> {
     pub gap: bool,
     /// It is whole by itself, as a datagram is.
     pub datagram: bool,
+    /// It is of a serial line: there is no connection, and whether whoever wrote the file sent it.
+    pub serial: Option<Option<bool>>,
+}
+
+impl<'a> Segment<'a> {
+    /// What a serial line carried.
+    pub(super) fn of_line(packet: &Packet<'_>, bytes: &'a [u8]) -> Self {
+        Self {
+            time: packet.time,
+            connection: MOST,
+            from_client: false,
+            ports: [0; 2],
+            offset: packet.offset,
+            line: packet.line,
+            bytes,
+            gap: false,
+            datagram: true,
+            serial: Some(packet.sent),
+        }
+    }
 }
 
 /// Puts what connections carry in order.
@@ -150,6 +170,7 @@ impl Connections {
             bytes: payload,
             gap: false,
             datagram: true,
+            serial: None,
         });
     }
 
@@ -230,6 +251,7 @@ impl Connections {
                 bytes: fresh,
                 gap: false,
                 datagram: false,
+                serial: None,
             });
         }
         self.go_on(connection, way, sink);
@@ -258,6 +280,7 @@ impl Connections {
                     bytes: fresh,
                     gap: false,
                     datagram: false,
+                    serial: None,
                 });
             }
         }
@@ -282,6 +305,7 @@ impl Connections {
             bytes: &bytes,
             gap: true,
             datagram: false,
+            serial: None,
         });
         self.go_on(connection, way, sink);
     }

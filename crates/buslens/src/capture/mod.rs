@@ -1,18 +1,21 @@
 //! Captures of networks: pcap and pcapng files, taken in pieces of any size, into the bytes of TCP
-//! connections and UDP datagrams in their order.
+//! connections and UDP datagrams in their order, and of serial lines; and written.
 //!
 //! | part | what it does |
 //! | --- | --- |
 //! | `packets` | the file: its blocks, interfaces and times |
 //! | `connections` | TCP: order, repetitions, gaps |
+//! | `write` | a file of what was read |
 //!
 //! Sources: draft-ietf-opsawg-pcap (pcap), draft-ietf-opsawg-pcapng (pcapng), RFC 9293 (TCP).
 
 mod connections;
 mod packets;
+mod write;
 
 pub use connections::{Connection, Segment};
 pub use packets::{Fault, Format};
+pub use write::{About, Writer};
 
 use connections::Connections;
 use etherparse::{EtherType, LaxNetSlice, LaxSlicedPacket, TransportSlice};
@@ -59,7 +62,7 @@ impl Capture {
     pub fn push_packet(&mut self, shown: Shown<'_>, sink: &mut dyn FnMut(Segment<'_>)) {
         let Shown { bytes, time, line, offset } = shown;
         let Some(link) = Link::tell(bytes) else { return };
-        read(&Packet { time, offset, line, link, bytes }, &mut self.connections, sink);
+        read(&Packet { time, offset, line, link, sent: None, bytes }, &mut self.connections, sink);
     }
 
     /// The file ends: gives what waits behind gaps.
@@ -81,6 +84,14 @@ impl Capture {
 
 /// Takes what a packet carries.
 fn read(packet: &Packet<'_>, connections: &mut Connections, sink: &mut dyn FnMut(Segment<'_>)) {
+    let serial = match packet.link {
+        Link::Serial => Some(packet.bytes),
+        Link::Named => named(packet.bytes),
+        _ => None,
+    };
+    if let Some(bytes) = serial.filter(|bytes| !bytes.is_empty()) {
+        return sink(Segment::of_line(packet, bytes));
+    }
     let sliced = match packet.link {
         Link::Ethernet => LaxSlicedPacket::from_ethernet(packet.bytes).ok(),
         Link::Ip => LaxSlicedPacket::from_ip(packet.bytes).ok(),
@@ -91,7 +102,7 @@ fn read(packet: &Packet<'_>, connections: &mut Connections, sink: &mut dyn FnMut
             kind.zip(inside).map(|(kind, inside)| LaxSlicedPacket::from_ether_type(EtherType(kind), inside))
         }
         Link::Loopback => packet.bytes.get(4..).and_then(|inside| LaxSlicedPacket::from_ip(inside).ok()),
-        Link::Other => None,
+        Link::Serial | Link::Named | Link::Other => None,
     };
     let ends = sliced.as_ref().and_then(|sliced| match &sliced.net {
         Some(LaxNetSlice::Ipv4(ip)) => {
@@ -118,5 +129,18 @@ fn read(packet: &Packet<'_>, connections: &mut Connections, sink: &mut dyn FnMut
         }
         // Neither TCP nor UDP over IP.
         _ => {}
+    }
+}
+
+/// What stands behind the name of the dissector that it is for, and other tags.
+fn named(packet: &[u8]) -> Option<&[u8]> {
+    let mut rest = packet;
+    loop {
+        let (head, behind) = rest.split_at_checked(4)?;
+        let length = usize::from(u16::from_be_bytes([head[2], head[3]]));
+        rest = behind.get(length..)?;
+        if u16::from_be_bytes([head[0], head[1]]) == write::END {
+            return Some(rest);
+        }
     }
 }

@@ -1,6 +1,7 @@
 use std::fmt;
 
-use pcap_parser::pcapng::{Block, parse_block_be, parse_block_le};
+use super::write;
+use pcap_parser::pcapng::{Block, PcapNGOption, parse_block_be, parse_block_le};
 use pcap_parser::{Linktype, parse_pcap_frame, parse_pcap_frame_be, parse_pcap_header};
 
 /// The file formats.
@@ -76,6 +77,10 @@ pub enum Link {
     },
     /// Four bytes of address family.
     Loopback,
+    /// Nothing: the bytes of a serial line, as many programs write them.
+    Serial,
+    /// The name of a dissector of Wireshark, as it exports what it read.
+    Named,
     Other,
 }
 
@@ -103,6 +108,9 @@ impl Link {
             113 => Self::Cooked { length: 16, at: 14 },
             276 => Self::Cooked { length: 20, at: 0 },
             0 | 108 => Self::Loopback,
+            // Free for anybody; serial lines are what is met there on a field bus.
+            147..=162 => Self::Serial,
+            252 => Self::Named,
             _ => Self::Other,
         }
     }
@@ -134,6 +142,8 @@ pub struct Packet<'a> {
     /// The line of a text that it begins in; 0 in a file of packets.
     pub line: u32,
     pub link: Link,
+    /// Whoever wrote the file sent it, or received it.
+    pub sent: Option<bool>,
     pub bytes: &'a [u8],
 }
 
@@ -280,6 +290,7 @@ impl Packets {
                     offset,
                     line: 0,
                     link: *link,
+                    sent: None,
                     bytes: frame.data,
                 });
             }
@@ -317,10 +328,26 @@ impl Packets {
                     let simple = matches!(parsed, Block::SimplePacket(_));
                     let time = i64::try_from(micros + i128::from(since) * 1_000_000).ok();
                     let time = time.filter(|time| !simple && time.unsigned_abs() < FURTHEST);
-                    sink(Packet { time, offset, line: 0, link, bytes: data });
+                    let sent = match &parsed {
+                        Block::EnhancedPacket(it) => sent(&it.options, *big),
+                        _ => None,
+                    };
+                    sink(Packet { time, offset, line: 0, link, sent, bytes: data });
                 }
             }
         }
         Ok(Some(length))
+    }
+}
+
+/// Whether a packet went out, where its options tell.
+fn sent(options: &[PcapNGOption<'_>], big: bool) -> Option<bool> {
+    let flags = options.iter().find(|option| option.code.0 == write::FLAGS)?;
+    let bytes = flags.value.get(..4)?.try_into().ok()?;
+    let flags = if big { u32::from_be_bytes(bytes) } else { u32::from_le_bytes(bytes) };
+    match flags & 3 {
+        write::INBOUND => Some(false),
+        write::OUTBOUND => Some(true),
+        _ => None,
     }
 }

@@ -31,6 +31,7 @@ pub static PROFILE: Profile = Profile {
     parameters: &[keb_f5::INVERTER_PARAMETERS, PARAMETERS],
     lessons: LESSONS,
     rules: &[entries],
+    common_exceptions: &[1, 2, 3, 4, 5, 6],
     exceptions: Some(&keb_f5::EXCEPTIONS),
     aliases: ALIASES,
     ..Profile::BLANK

@@ -30,7 +30,7 @@ pub struct Likely {
 }
 
 impl Profile {
-    /// Every way to read `bytes` as registers of the device, best first.
+    /// Every way to read `bytes` as registers of the device.
     pub fn likely(&'static self, bytes: &[u8], settings: &Settings) -> Vec<Likely> {
         if bytes.is_empty() || !bytes.len().is_multiple_of(2) || self.ident.is_some() {
             return Vec::new();
@@ -54,7 +54,6 @@ impl Profile {
         });
         let mut found: Vec<Likely> = read.collect();
         found.extend(self.mapped_block(bytes, settings));
-        found.sort_by_key(|likely| std::cmp::Reverse(likely.bits));
         found
     }
 

@@ -55,6 +55,8 @@ pub struct Profile {
     pub lessons: &'static [Lesson],
     /// What the manual asks of registers beyond what their own descriptions say.
     pub rules: &'static [Rule],
+    /// The exception codes of the standard that it rejects requests with.
+    pub common_exceptions: &'static [u8],
     /// What its exception codes mean, where the manual has more of them than the standard.
     pub exceptions: Option<&'static Spec>,
     /// Other addresses of its parameters, as other programs of the maker count them.
@@ -331,6 +333,8 @@ impl Profile {
         display: &[],
         lessons: &[],
         rules: &[],
+        // Others are of devices that program, keep files or pass on.
+        common_exceptions: &[1, 2, 3, 4],
         exceptions: None,
         aliases: &[],
         misprints: &[],

@@ -312,8 +312,7 @@ impl Profile {
         if parts.is_empty() && self.area(index).is_some_and(|area| area.is_between(index)) && subindex > 0 {
             parts.push(0);
         }
-        parts.sort_unstable();
-        let (first, last) = (*parts.first()?, *parts.last()?);
+        let (first, last) = (*parts.iter().min()?, *parts.iter().max()?);
         let index = self.address(index);
         Some(Problem::warning(
             "no-such-subindex",

@@ -51,13 +51,16 @@ pub fn blocks(bytes: &[u8], device: Option<&'static Profile>, settings: &Setting
     }
     // Of a device that is chosen, what is possible is worth a word.
     found.retain(|reading| reading.bits > 0 || device.is_some() && problems(&reading.fields).is_empty());
-    found.sort_by_key(|reading| std::cmp::Reverse(reading.bits));
-    let second = found.get(1).map_or(0, |second| second.bits);
-    for (index, reading) in found.iter_mut().enumerate() {
+    let mut best: Vec<BlockReading> = Vec::with_capacity(found.len());
+    for reading in found {
+        best.insert(best.partition_point(|better| better.bits >= reading.bits), reading);
+    }
+    let second = best.get(1).map_or(0, |second| second.bits);
+    for (index, reading) in best.iter_mut().enumerate() {
         let clear = index == 0 && reading.bits >= ENOUGH && reading.bits >= second + AHEAD;
         reading.certainty = if clear { Certainty::Likely } else { Certainty::Open };
     }
-    found
+    best
 }
 
 /// From so many bits on, and so many before the next, a reading is likely.

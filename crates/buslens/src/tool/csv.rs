@@ -4,7 +4,7 @@ use super::{Report, Verdict};
 use crate::field::{Direction, hex};
 
 /// The columns.
-const HEAD: [&str; 14] = [
+const HEAD: [&str; 15] = [
     "number",
     "line",
     "protocol",
@@ -13,6 +13,7 @@ const HEAD: [&str; 14] = [
     "function",
     "exception",
     "check",
+    "state",
     "bytes",
     "meaning",
     "problems",
@@ -27,7 +28,7 @@ const HEAD: [&str; 14] = [
 /// use buslens::tool::{Options, csv, decode};
 ///
 /// let table = csv::table(&decode("01 03 00 C8 00 03 84 35", Options::default()));
-/// assert!(table.lines().nth(1).unwrap().starts_with("1,1,modbus-rtu,request,1,3,,right,01 03 00 C8"));
+/// assert!(table.lines().nth(1).unwrap().starts_with("1,1,modbus-rtu,request,1,3,,right,sent,01 03 00 C8"));
 /// ```
 pub fn table(report: &Report) -> String {
     let rows = (0..report.telegrams.len()).map(|index| telegram(report, index));
@@ -51,6 +52,7 @@ pub fn telegram(report: &Report, index: usize) -> String {
         Verdict::Unchecked => "too short",
         Verdict::NoCheck => "none",
     };
+    let latency = telegram.latency.filter(|_| telegram.answers.is_some());
     let number = |number: Option<u8>| number.map_or(String::new(), |number| number.to_string());
     let problems: Vec<String> =
         detail.problems().into_iter().map(|problem| problem.message.sentence()).collect();
@@ -63,11 +65,13 @@ pub fn telegram(report: &Report, index: usize) -> String {
         number(detail.function),
         number(detail.exception),
         check.to_owned(),
+        report.state(index).key().to_owned(),
         hex(&telegram.line.bytes),
         detail.meaning().sentence(),
         problems.join("; "),
         telegram.time.clone().unwrap_or_default(),
-        telegram.latency.map_or(String::new(), |micros| (f64::from(micros) / 1000.0).to_string()),
+        // Once for an exchange: what counts and adds up goes by rows.
+        latency.map_or(String::new(), |micros| (f64::from(micros) / 1000.0).to_string()),
         telegram.comment.clone(),
     ])
 }
@@ -94,7 +98,7 @@ mod tests {
         let table = table(&report);
         let lines: Vec<&str> = table.split_terminator("\r\n").collect();
         assert_eq!(lines.len(), 1 + report.telegrams.len());
-        assert!(lines[1].contains(",wrong,01 03 06"), "{table}");
+        assert!(lines[1].contains(",wrong,damaged,01 03 06"), "{table}");
         assert!(lines[1].contains("\"Unit 1 answers with 3 holding registers: 8, 17060, 61918,"), "{table}");
         assert_eq!(quoted("say \"no\"".to_owned()), "\"say \"\"no\"\"\"");
     }

@@ -1,4 +1,4 @@
-use super::log::Seen;
+use super::log::{Seen, State};
 use crate::device::{self, Profile};
 use crate::dialogue::{Certainty, Choice, Guess};
 use crate::field::{self, Argument, Direction, Severity, Span};
@@ -23,12 +23,25 @@ pub struct Options {
 }
 
 impl Options {
+    /// The device that a unit is: its own, or else the one that is chosen for all.
+    pub fn device_of(&self, unit: Option<u8>) -> Option<&'static Profile> {
+        let own = self.settings.units.iter().find(|it| Some(it.unit) == unit);
+        own.and_then(|own| own.device).or(self.device)
+    }
+
+    /// All devices that are chosen, for all units or for some.
+    pub fn devices(&self) -> impl Iterator<Item = &'static Profile> {
+        self.device.into_iter().chain(self.settings.units.iter().filter_map(|it| it.device))
+    }
+
     /// Takes what the chosen device says of its telegrams: its ident number, and what it speaks.
     pub(super) fn take_device(&mut self) {
-        let Some(device) = self.device else { return };
+        let bus = |device: &Profile| if device.ident.is_some() { Bus::Profibus } else { Bus::Modbus };
+        let Some(device) = self.devices().next() else { return };
+        let same = self.devices().all(|other| bus(other) == bus(device));
         let frame = &mut self.settings.frame;
         frame.profibus.ident = frame.profibus.ident.or(device.ident);
-        frame.bus = Some(if device.ident.is_some() { Bus::Profibus } else { Bus::Modbus });
+        frame.bus = same.then(|| bus(device));
     }
 }
 
@@ -39,6 +52,21 @@ pub struct Settings {
     pub frame: frame::Settings,
     /// What registers and process data mean.
     pub device: device::Settings,
+    /// What single units are.
+    pub units: Vec<UnitDevice>,
+}
+
+/// What a unit is.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct UnitDevice {
+    pub unit: u8,
+    pub device: Option<&'static Profile>,
+}
+
+impl PartialEq for UnitDevice {
+    fn eq(&self, other: &Self) -> bool {
+        (self.unit, self.device.map(|it| it.key)) == (other.unit, other.device.map(|it| it.key))
+    }
 }
 
 /// What was found in a text.
@@ -83,6 +111,8 @@ pub struct Telegram {
     pub time: Option<String>,
     /// Microseconds from the request to the response.
     pub latency: Option<u32>,
+    /// How it went with it, where its log tells.
+    pub state: Option<State>,
     /// What a person noted on it.
     pub comment: String,
 }
@@ -143,6 +173,7 @@ impl Report {
             step: None,
             time: None,
             latency: None,
+            state: None,
             comment: String::new(),
         };
         let asked = Telegram { answered_by: Some(1), ..telegram(request, Direction::Request) };
@@ -217,7 +248,7 @@ impl Report {
 
     /// A line that is no bytes but what the device's display shows, with what that means.
     pub(super) fn explain_display(&self, written: &str, span: Span) -> Option<Remark> {
-        let shown = self.options.device.and_then(|profile| profile.shown(written.trim()))?;
+        let shown = self.options.devices().find_map(|profile| profile.shown(written.trim()))?;
         let message = message!(
             "on the display of the device, {text} means: {meaning}",
             text = shown.text.to_owned(),
@@ -245,6 +276,11 @@ impl Report {
         (frame, reading)
     }
 
+    /// The device that telegram `index` is for or from.
+    pub(super) fn device(&self, index: usize) -> Option<&'static Profile> {
+        self.options.device_of(self.telegrams.get(index)?.unit)
+    }
+
     /// How the devices are set up when telegram `index` is sent.
     pub(super) fn settings(&self, index: usize) -> &Settings {
         let unit = self.telegrams[index].unit;
@@ -260,7 +296,7 @@ impl Report {
         for index in 0..self.telegrams.len() {
             let telegram = &self.telegrams[index];
             let pdu = matches!(telegram.choice.protocol.speaker, Speaker::Pdu(_));
-            if telegram.verdict == Verdict::Wrong || (pdu && self.options.device.is_none()) {
+            if telegram.verdict == Verdict::Wrong || (pdu && self.device(index).is_none()) {
                 continue;
             }
             if telegram.unit == TO_ALL {
@@ -285,7 +321,7 @@ impl Report {
                             slaves.len() - 1
                         });
                         let step = slaves[at].1.next(channel);
-                        changed |= self.learn_parameter(channel, step.as_ref(), &mut settings.device);
+                        changed |= self.learn_parameter(slave, channel, step.as_ref(), &mut settings.device);
                         self.telegrams[index].step = step;
                     }
                     changed
@@ -321,7 +357,7 @@ impl Report {
     /// Takes what registers were written, once that is confirmed, or if nobody answers at all; and what was
     /// read of them.
     fn learn_registers(&self, index: usize, pdu: &Pdu, settings: &mut device::Settings) -> bool {
-        let Some(profile) = self.options.device else { return false };
+        let Some(profile) = self.device(index) else { return false };
         let telegram = &self.telegrams[index];
         if let Some(access) =
             pdu.body.access().filter(|access| !access.write && pdu.direction == Direction::Response)
@@ -348,6 +384,7 @@ impl Report {
     /// Takes what a job wrote, when it is done.
     fn learn_parameter(
         &self,
+        slave: Option<u8>,
         channel: &Channel,
         step: Option<&Step>,
         settings: &mut device::Settings,
@@ -355,7 +392,7 @@ impl Report {
         let done =
             step.filter(|step| step.state == jobs::State::Done && channel.direction == Direction::Response);
         let written = channel.service() == Service::Write;
-        match (self.options.device, done.and_then(|step| step.value)) {
+        match (self.options.device_of(slave), done.and_then(|step| step.value)) {
             (Some(profile), Some(value)) => {
                 profile.learn(channel.index, channel.subindex, value, 4, written, settings)
             }

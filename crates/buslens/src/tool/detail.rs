@@ -106,7 +106,7 @@ impl Report {
             device: Said::default(),
             fields: reading.fields,
         };
-        let device = self.options.device.map(|profile| (profile, &self.settings(index).device));
+        let device = self.device(index).map(|profile| (profile, &self.settings(index).device));
         if let Content::Profibus { body, .. } = frame.content()
             && let Some(channel) = body.channel()
         {
@@ -160,7 +160,7 @@ impl Report {
     /// What the bytes of "telegram" `index` are, where they are none but a block of registers by itself.
     pub fn block(&self, index: usize) -> Option<BlockReading> {
         let telegram = &self.telegrams[index];
-        let device = self.options.device?;
+        let device = self.device(index)?;
         let plain = matches!(telegram.verdict, Verdict::Wrong | Verdict::Unchecked);
         let alone = telegram.answers.is_none() && telegram.guess.certainty != Certainty::Certain;
         if !plain || self.options.protocol.is_some() || !(alone || telegram.unit == Some(0)) {
@@ -176,7 +176,7 @@ impl Report {
             .body
             .access()
             .filter(|access| !access.write && access.start.is_none() && !access.table.holds_switches())?;
-        let best = blocks(&big_endian(&access, usize::MAX), Some(self.options.device?), self.settings(index))
+        let best = blocks(&big_endian(&access, usize::MAX), Some(self.device(index)?), self.settings(index))
             .into_iter()
             .next()?;
         (best.certainty == Certainty::Likely).then_some(best)

@@ -292,6 +292,14 @@ pub static EXAMPLES: &[Example] = &[
     ),
     Example::new(
         Group::Broken,
+        "flow_control",
+        "A byte that a converter swallowed",
+        "01 03 00 C8 00 03 84 35\n\
+               01 03 06 00 80 42 47 AE D6 9A",
+    )
+    .device("memograph-rsg45"),
+    Example::new(
+        Group::Broken,
         "check_failed",
         "A changed byte: the CRC is wrong",
         "01 03 00 C8 00 03 84 35\n01 03 06 00 08 42 A4 F1 DE B0 F8",

@@ -123,7 +123,7 @@ impl Report {
 
     /// What a hypothesis says in the device's words.
     fn in_words(&self, index: usize, hypothesis: &Hypothesis, guess: &Guess) -> Option<Detail> {
-        self.options.device?;
+        self.device(index)?;
         let mut telegram = self.telegrams[index].clone();
         telegram.line.bytes.clone_from(&hypothesis.bytes);
         telegram.guess = guess.clone();

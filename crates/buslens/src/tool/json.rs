@@ -34,6 +34,8 @@ pub struct Row {
     pub exception: Option<u8>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub check: Option<Check>,
+    /// How it went: `ok`, `slow`, `late`, `unanswered`, `rejected`, `damaged` and so on.
+    pub state: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub start: Option<u16>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -210,13 +212,19 @@ pub fn line(report: &Report, index: usize, fields: bool) -> serde_json::Result<S
         return Ok(String::new());
     };
     let pair = telegram.answers.or(telegram.answered_by).and_then(|pair| report.telegrams.get(pair));
-    let mut row = row(telegram, pair, detail, fields);
+    let mut row = row(telegram, pair, detail, report.state(index).key(), fields);
     let explained = report.explanations(index).into_iter();
     row.hypotheses = explained.map(|one| hypothesis(one, &telegram.line.bytes)).collect();
     serde_json::to_string(&row)
 }
 
-fn row(telegram: &Telegram, pair: Option<&Telegram>, detail: Detail, fields: bool) -> Row {
+fn row(
+    telegram: &Telegram,
+    pair: Option<&Telegram>,
+    detail: Detail,
+    state: &'static str,
+    fields: bool,
+) -> Row {
     let line = &telegram.line;
     let problems = detail.problems().into_iter().map(|problem| Problem {
         code: problem.code,
@@ -249,6 +257,7 @@ fn row(telegram: &Telegram, pair: Option<&Telegram>, detail: Detail, fields: boo
                 computed: check.computed_bytes(),
             },
         ),
+        state,
         start: detail.start,
         count: detail.count,
         meaning: detail.meaning().sentence() + ".",

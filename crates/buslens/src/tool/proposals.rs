@@ -25,7 +25,8 @@ pub fn proposals(report: &Report) -> Vec<Proposal> {
     let mut units: Vec<Option<u8>> = Vec::new();
     if report.options.device.is_none() {
         for telegram in &report.telegrams {
-            if !units.contains(&telegram.unit) {
+            let known = report.options.device_of(telegram.unit).is_some();
+            if !known && !units.contains(&telegram.unit) {
                 units.push(telegram.unit);
             }
         }

@@ -44,8 +44,12 @@ fn registers(request: &mut dyn Frame, device: Option<&'static Profile>) -> Vec<(
     let function = pdu.function;
     let own = MAKERS.iter().any(|codes| codes.contains(&function));
     let maker = || PROFILES.iter().copied().find(|profile| own && profile.functions.contains(&function));
-    let more = device.or_else(maker).and_then(|profile| profile.exceptions);
-    for code in exceptions().iter().chain(more.map_or(&[][..], |spec| spec.names)) {
+    let device = device.or_else(maker);
+    let common = exceptions().iter().filter(|code| {
+        device.is_none_or(|profile| profile.common_exceptions.iter().any(|it| u64::from(*it) == code.value))
+    });
+    let more = device.and_then(|profile| profile.exceptions);
+    for code in common.chain(more.map_or(&[][..], |spec| spec.names)) {
         let (number, name) = (code.value as u8, Argument::Term(code.label));
         let label = message!("exception {code}, {name}", code = number, name = name);
         replies.push((label, Cargo::Modbus(pdu.refusal(number))));

@@ -10,10 +10,13 @@
 //! process_output.words.0.sets = 01h
 //! profibus = swap process data
 //! inputs = 8
+//! units = 1
+//! units.0.unit = 3
+//! units.0.device = KEB COMBIVERT F5 on Modbus
 //! ```
 
-use super::{Entries, Settings};
-use crate::device::{self, Entry, Mapping, ProcessWord, keb_f5, mapping_entry};
+use super::{Entries, Settings, UnitDevice};
+use crate::device::{self, Entry, Mapping, PROFILES, ProcessWord, Profile, keb_f5, mapping_entry};
 use crate::field::{Bits, Format, Message, Name, Role, Spec};
 use crate::message;
 use crate::modbus::{DIALECTS, STANDARD};
@@ -116,7 +119,16 @@ impl Telegram for Settings {
         }
         let Self { device: device::Settings { read_mapping, write_mapping, .. }, .. } = self;
         used(w, &READ_USED, &mut read_mapping.used)?;
-        used(w, &WRITE_USED, &mut write_mapping.used)
+        used(w, &WRITE_USED, &mut write_mapping.used)?;
+        let count = w.announce(&UNIT_COUNT, 1, self.units.len(), 1)?;
+        w.list(&UNITS, &mut self.units, count, Some(1), |w, UnitDevice { unit, device }| {
+            w.u8(&UNIT, unit)?;
+            let place = |it: &Profile| PROFILES.iter().position(|other| other.key == it.key);
+            let mut number = device.and_then(place).map_or(0, |at| at as u8 + 1);
+            w.u8(&DEVICE, &mut number)?;
+            *device = usize::from(number).checked_sub(1).and_then(|at| PROFILES.get(at).copied());
+            Ok(())
+        })
     }
 }
 
@@ -182,6 +194,22 @@ const fn in_use(key: &'static str, label: &'static str) -> Spec {
         .note("MDB_MapNr_Rd and MDB_MapNr_Wr: entries behind them count for nothing; factory setting 2.")
         .source("KEB COMBIVERT F5 Modbus operator, 3")
 }
+
+static UNIT_COUNT: Spec = Spec::new("unit_count", "Units with a device of their own").role(Role::Count);
+static UNITS: Spec = Spec::new("units", "Units");
+static UNIT: Spec = Spec::new("unit", "Unit").role(Role::Unit);
+static DEVICE: Spec = Spec::new("device", "Device")
+    .names(&DEVICE_NAMES)
+    .note("The device that this unit is; it counts more than one that is chosen for all.");
+static DEVICE_NAMES: [Name; 4] = {
+    let mut names = [const { Name { value: 0, label: "not known", note: "" } }; 4];
+    let mut at = 0;
+    while at < PROFILES.len() {
+        names[at + 1] = Name { value: at as u64 + 1, label: PROFILES[at].label, note: "" };
+        at += 1;
+    }
+    names
+};
 
 static PROCESS_OUTPUT: Spec = Spec::new("process_output", "Process output data")
     .note("What the words to the device carry; factory setting: control word and set speed.")

@@ -1,7 +1,7 @@
 //! How devices are set up, as a person reads it: registers and words with the names of their parameters,
 //! and what is not as delivered in sentences.
 
-use super::Settings;
+use super::{Settings, UnitDevice};
 use crate::device::{Entry, Mapping, ProcessWord, Profile};
 use crate::field::{Argument, Message, hex_value};
 use crate::message;
@@ -234,6 +234,8 @@ pub enum What {
     Channel,
     Outputs,
     Inputs,
+    /// What a unit is.
+    Unit(u8),
 }
 
 /// What is not as delivered, in the order of the settings.
@@ -303,7 +305,21 @@ pub fn differences(settings: &Settings) -> Vec<Difference> {
             tell(what, said);
         }
     }
+    for UnitDevice { unit, device } in &settings.units {
+        let Some(device) = device else { continue };
+        let said = message!("unit {unit} is {device}", unit = *unit, device = Argument::Term(device.label));
+        tell(What::Unit(*unit), said);
+    }
     found
+}
+
+/// Says what a unit is; `None` that nobody knows.
+pub fn name_unit(settings: &mut Settings, unit: u8, device: Option<&'static Profile>) {
+    settings.units.retain(|it| it.unit != unit);
+    if device.is_some() {
+        settings.units.push(UnitDevice { unit, device });
+        settings.units.sort_by_key(|it| it.unit);
+    }
 }
 
 /// Puts one thing back as it is delivered.
@@ -322,6 +338,7 @@ pub fn put_back(settings: &mut Settings, what: What) {
         What::Channel => profibus.layout.channel = usual.frame.profibus.layout.channel,
         What::Outputs => profibus.layout.outputs = usual.frame.profibus.layout.outputs,
         What::Inputs => profibus.layout.inputs = usual.frame.profibus.layout.inputs,
+        What::Unit(unit) => name_unit(settings, unit, None),
     }
 }
 
@@ -435,6 +452,28 @@ mod tests {
             assert_eq!(differences(&settings).len(), left);
         }
         assert_eq!(write(&settings), write(&Settings::default()));
+    }
+
+    #[test]
+    fn units_are_devices() {
+        let mut settings = Settings::default();
+        name_unit(&mut settings, 3, Profile::of("keb-f5-modbus"));
+        name_unit(&mut settings, 1, Profile::of("memograph-rsg45"));
+        let said: Vec<String> = differences(&settings).iter().map(|it| it.said.sentence()).collect();
+        assert_eq!(
+            said,
+            ["Unit 1 is Endress+Hauser Memograph M RSG45", "Unit 3 is KEB COMBIVERT F5 on Modbus"]
+        );
+        let text = write(&settings);
+        assert!(text.contains("units.1.unit = 3\nunits.1.device = 1\n"), "{text}");
+        assert_eq!(read(&text).unwrap().units, settings.units);
+        let named = text.replace("device = 1", "device = KEB COMBIVERT F5 on Modbus");
+        assert_eq!(read(&named).unwrap().units, settings.units);
+        let bytes = crate::tool::settings::to_bytes(&settings);
+        assert_eq!(crate::tool::settings::from_bytes(&bytes).units, settings.units);
+        put_back(&mut settings, What::Unit(1));
+        name_unit(&mut settings, 3, None);
+        assert!(differences(&settings).is_empty());
     }
 
     #[test]

@@ -22,7 +22,7 @@ pub struct ValueFinding {
 /// register is a number.
 pub fn value_findings(report: &Report) -> Vec<ValueFinding> {
     let mut follow = Follow::default();
-    if report.options.device.is_none() {
+    if report.options.devices().next().is_none() {
         return Vec::new();
     }
     for (index, telegram) in report.telegrams.iter().enumerate() {

@@ -7,6 +7,8 @@ mod overview;
 mod timeline;
 mod tools;
 
+use std::sync::Arc;
+
 use leptos::prelude::*;
 
 use super::ReadState;
@@ -14,9 +16,11 @@ use super::log::Stage;
 use super::open_file::OpenFile;
 use super::times::stretch;
 use crate::components::icon::{Glyph, Icon};
-use crate::components::menu::{Menu, MenuItem};
-use crate::worker::messages::Export;
+use crate::components::menu::{Menu, MenuItem, MenuLink};
+use crate::views::outgoing::{PassOn, Summary};
+use crate::worker::messages::{Export, Request};
 use buslens::field::many;
+use buslens::tool::digest::Digest;
 use detail::Detail;
 use filters::Filters;
 use list::List;
@@ -66,10 +70,20 @@ fn FileBar() -> impl IntoView {
         })
     };
     let format = move || log.overview.with(|it| it.as_ref().map(|it| format!("Read as: {}", it.format)));
-    let name = move || read.file_name().unwrap_or_else(|| "Pasted text".to_owned());
+    let name = Signal::derive(move || read.file_name().unwrap_or_else(|| "Pasted text".to_owned()));
     let export = move |kind: Export| {
         let save = Callback::new(move |()| log.export(kind));
         view! { <MenuItem on_choose=save>{kind.label()}</MenuItem> }
+    };
+    let [summary, pass_on] = [(); 2].map(|()| RwSignal::new(false));
+    let titled = Signal::derive(move || {
+        let digest = log.digest.get()?;
+        Some(Arc::new(Digest { title: read.file_name().unwrap_or_default(), ..(*digest).clone() }))
+    });
+    let sum_up = move |_| {
+        log.digest.set(None);
+        log.ask(Request::Digest);
+        summary.set(true);
     };
     let has_text = move || read.file_name().is_none() && !read.editing.get();
     view! {
@@ -94,12 +108,21 @@ fn FileBar() -> impl IntoView {
                 <Tools />
                 <Menu label="Export" glyph=Glyph::Save at_end=true>
                     {Export::FILES.map(export).into_iter().collect_view()}
+                    <MenuItem on_choose=Callback::new(move |()| pass_on.set(true))>"A log to pass on"</MenuItem>
+                    <MenuLink href="#/sheet">"A report to print"</MenuLink>
                 </Menu>
-                <button type="button" class="button main" on:click=move |_| log.export(Export::Summary)>
+                <button type="button" class="button main" on:click=sum_up>
                     <Icon glyph=Glyph::Mail />
                     "Copy summary for a mail"
                 </button>
             </div>
+            <Summary open=summary digest=titled print="#/sheet" />
+            <PassOn
+                open=pass_on
+                name
+                ask=Callback::new(move |hidden| log.ask(Request::PassOn(hidden)))
+                passed=log.passed
+            />
         </section>
     }
 }

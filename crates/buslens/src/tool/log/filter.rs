@@ -155,7 +155,7 @@ impl Log {
         if let Ok(address) = u16::from_str_radix(number, radix) {
             return Text::Registers(vec![(address, address)]);
         }
-        let named = self.options.device.map_or(Vec::new(), |profile| profile.addresses(text));
+        let named: Vec<_> = self.options.devices().flat_map(|profile| profile.addresses(text)).collect();
         if !named.is_empty() {
             return Text::Registers(named);
         }

@@ -55,7 +55,7 @@ impl Log {
 
     /// What the values show, by the beginning of the log.
     fn of_values(&self, source: &dyn Source) -> Vec<Finding> {
-        if self.options().device.is_none() {
+        if self.options().devices().next().is_none() {
             return Vec::new();
         }
         let indices = self.beginning();

@@ -81,6 +81,26 @@ impl State {
         }
     }
 
+    /// The stable word of exports.
+    pub const fn key(self) -> &'static str {
+        match self {
+            Self::Plain => "sent",
+            Self::Ok => "ok",
+            Self::Broadcast => "broadcast",
+            Self::Copy => "copy",
+            Self::Echo => "echo",
+            Self::Retry => "retry",
+            Self::Slow => "slow",
+            Self::Late => "late",
+            Self::Unasked => "unasked",
+            Self::Refused => "rejected",
+            Self::Unanswered => "unanswered",
+            Self::Cut => "cut",
+            Self::Damaged => "damaged",
+            Self::Discarded => "no-telegram",
+        }
+    }
+
     /// Whether a person should look at it.
     pub const fn is_wrong(self) -> bool {
         matches!(
@@ -305,6 +325,9 @@ impl Report {
     /// How it went with telegram `index`, as far as the telegrams beside it tell.
     pub fn state(&self, index: usize) -> State {
         let Some(telegram) = self.telegrams.get(index) else { return State::Plain };
+        if let Some(state) = telegram.state {
+            return state;
+        }
         let told = telegram.guess.certainty != Certainty::Open;
         let request = telegram.guess.direction == Direction::Request;
         match telegram.verdict {

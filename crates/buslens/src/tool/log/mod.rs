@@ -3,6 +3,9 @@
 //! A [`Log`] keeps 40 bytes and the telegram's own bytes for each telegram. The tree of fields is
 //! made for those that somebody looks at, by [`Log::report`], which reads their lines again.
 
+#[cfg(feature = "captures")]
+mod capture_file;
+mod digest;
 mod excerpt;
 mod filter;
 mod findings;
@@ -13,12 +16,16 @@ mod list;
 mod packets;
 mod pictures;
 mod places;
+#[cfg(feature = "captures")]
+mod redact;
 mod rows;
 mod seen;
 mod story;
 
 pub use crate::dialogue::traffic::{Dialog, Entry, Minutes, Role, Statistics};
 pub use crate::text::{LAYOUTS, Layout, Marks, Numbers, Place};
+#[cfg(feature = "captures")]
+pub use capture_file::CaptureFile;
 pub use excerpt::Excerpt;
 pub use filter::{Filter, Wanted, is_error};
 pub use findings::Finding;
@@ -26,6 +33,8 @@ pub use format::{Format, Refusal};
 pub use lanes::{Lane, Lanes, Mark};
 pub use list::{Overview, Row, State, Unit, brief};
 pub use pictures::{Bucket, Held, Point, Timeline};
+#[cfg(feature = "captures")]
+pub use redact::{Hidden, Kind, Redacted, Replaced};
 pub use seen::Seen;
 pub use story::time_text;
 
@@ -33,8 +42,12 @@ use std::collections::HashMap;
 
 use super::Options;
 use super::decode::Report;
+#[cfg(feature = "captures")]
+use crate::capture::{Capture, Fault, Segment};
 use crate::dialogue::traffic::{Chunk, Hint, Traffic, statistics};
 use crate::dialogue::{self, Candidate, Choice};
+#[cfg(feature = "captures")]
+use crate::field::Facts;
 use crate::frame::split::{Splitter, can_split};
 use crate::frame::{PROTOCOLS, Protocol, Settings, modbus_ascii, modbus_pdu};
 use crate::message;
@@ -125,14 +138,57 @@ enum Way {
     },
     Stream,
     #[cfg(feature = "captures")]
-    Capture(Box<crate::capture::Capture>),
+    Capture(Box<dyn Captured>),
     #[cfg(feature = "captures")]
     Packets(Box<packets::Packets>),
 }
 
+/// A capture that is read from its file. It stands behind a trait so that a program that never opens one does
+/// without what reads the file: 10 kB of the page's first part.
+#[cfg(feature = "captures")]
+trait Captured: std::fmt::Debug {
+    fn push(&mut self, part: &[u8], sink: &mut dyn FnMut(Segment<'_>)) -> Result<(), Fault>;
+    fn finish(&mut self, sink: &mut dyn FnMut(Segment<'_>)) -> Result<(), Fault>;
+    fn capture(&self) -> &Capture;
+}
+
+#[cfg(feature = "captures")]
+impl Captured for Capture {
+    fn push(&mut self, part: &[u8], sink: &mut dyn FnMut(Segment<'_>)) -> Result<(), Fault> {
+        self.push(part, sink)
+    }
+
+    fn finish(&mut self, sink: &mut dyn FnMut(Segment<'_>)) -> Result<(), Fault> {
+        self.finish(sink)
+    }
+
+    fn capture(&self) -> &Capture {
+        self
+    }
+}
+
+/// Makes what reads the file of a capture.
+type Captures = fn() -> Way;
+
+#[cfg(feature = "captures")]
+const CAPTURES: Option<Captures> = Some(|| Way::Capture(Box::new(Capture::default())));
+#[cfg(not(feature = "captures"))]
+const CAPTURES: Option<Captures> = None;
+
 /// Reads a file that is in memory: a log, a capture, a stream, or plain lines of bytes, as pasted.
 pub fn decode_file(file: &[u8], reading: &Reading, options: Options) -> Result<Report, Refusal> {
-    match Log::read(file, reading, options.clone()) {
+    report(Log::read(file, reading, options.clone()), file, options)
+}
+
+/// Reads a text that was typed or pasted as [`decode_file`] reads files. It is no file of a capture, though it
+/// may show packets: a program that calls nothing else does without what reads those files.
+pub fn decode_pasted(text: &str, options: Options) -> Result<Report, Refusal> {
+    let log = Log::read_with(None, text.as_bytes(), &Reading::default(), options.clone());
+    report(log, text.as_bytes(), options)
+}
+
+fn report(log: Result<Log, Refusal>, file: &[u8], options: Options) -> Result<Report, Refusal> {
+    match log {
         // Nothing in it is nothing wrong.
         Err(Refusal::Empty) => Ok(Report::nothing("", options)),
         Err(refusal) => Err(refusal),
@@ -148,7 +204,7 @@ pub fn decode_file(file: &[u8], reading: &Reading, options: Options) -> Result<R
 /// what is wrong with it.
 pub fn decode(text: &str, options: Options) -> Report {
     let reading = Reading { input: Input::Text, ..Reading::default() };
-    match Log::read(text.as_bytes(), &reading, options.clone()) {
+    match Log::read_with(None, text.as_bytes(), &reading, options.clone()) {
         Ok(log) => log.typed_report(text),
         Err(_) => Report::nothing(text, options),
     }
@@ -162,7 +218,12 @@ pub const LARGEST: u64 = 1 << 31;
 
 impl Log {
     /// Begins to read a file of `size` bytes by its beginning, which is to be pushed all the same.
-    pub fn open(
+    pub fn open(beginning: &[u8], size: u64, reading: &Reading, options: Options) -> Result<Self, Refusal> {
+        Self::open_with(CAPTURES, beginning, size, reading, options)
+    }
+
+    fn open_with(
+        captures: Option<Captures>,
         beginning: &[u8],
         size: u64,
         reading: &Reading,
@@ -209,10 +270,7 @@ impl Log {
                 traffic.stream();
                 Way::Stream
             }
-            #[cfg(feature = "captures")]
-            Format::Capture { .. } => Way::Capture(Box::default()),
-            #[cfg(not(feature = "captures"))]
-            Format::Capture { .. } => return Err(Refusal::NoCaptures),
+            Format::Capture { .. } => captures.ok_or(Refusal::NoCaptures)?(),
         };
         let transcoded = matches!(input, Way::Utf16 { .. }).then(Vec::new);
         Ok(Self {
@@ -238,8 +296,17 @@ impl Log {
 
     /// Reads a whole file that is in memory.
     pub fn read(file: &[u8], reading: &Reading, options: Options) -> Result<Self, Refusal> {
+        Self::read_with(CAPTURES, file, reading, options)
+    }
+
+    fn read_with(
+        captures: Option<Captures>,
+        file: &[u8],
+        reading: &Reading,
+        options: Options,
+    ) -> Result<Self, Refusal> {
         let beginning = &file[..file.len().min(BEGINNING)];
-        let mut log = Self::open(beginning, file.len() as u64, reading, options)?;
+        let mut log = Self::open_with(captures, beginning, file.len() as u64, reading, options)?;
         log.push(file);
         log.finish();
         Ok(log)
@@ -278,7 +345,7 @@ impl Log {
             }
             #[cfg(feature = "captures")]
             Way::Capture(capture) => {
-                let mut segment = |segment: crate::capture::Segment<'_>| {
+                let mut segment = |segment: Segment<'_>| {
                     room &= traffic.take(of_segment(&segment));
                 };
                 if let Err(problem) = capture.push(part, &mut segment) {
@@ -318,7 +385,7 @@ impl Log {
             Way::Stream => {}
             #[cfg(feature = "captures")]
             Way::Capture(capture) => {
-                let mut segment = |segment: crate::capture::Segment<'_>| {
+                let mut segment = |segment: Segment<'_>| {
                     traffic.take(of_segment(&segment));
                 };
                 if let Err(problem) = capture.finish(&mut segment) {
@@ -356,9 +423,9 @@ impl Log {
 
     /// The capture that is read, or that a text shows.
     #[cfg(feature = "captures")]
-    fn capture(&self) -> Option<&crate::capture::Capture> {
+    fn capture(&self) -> Option<&Capture> {
         match &self.input {
-            Way::Capture(capture) => Some(capture),
+            Way::Capture(capture) => Some(capture.capture()),
             Way::Packets(packets) => Some(packets.capture()),
             _ => None,
         }
@@ -475,12 +542,25 @@ fn take_of_packet(found: packets::Found<'_>, traffic: &mut Traffic, unread: &mut
 }
 
 #[cfg(feature = "captures")]
-fn of_segment<'a>(segment: &crate::capture::Segment<'a>) -> Chunk<'a> {
+fn of_segment<'a>(segment: &Segment<'a>) -> Chunk<'a> {
     use crate::field::Direction;
     /// The port of Modbus TCP.
     ///
     /// Source: Modbus messaging on TCP/IP V1.0b, section 4.3.1.
     const MODBUS: u16 = 502;
+    if let Some(sent) = segment.serial {
+        return Chunk {
+            bytes: segment.bytes,
+            time: segment.time,
+            hint: sent.map_or(Hint::None, |sent| if sent { Hint::Logger } else { Hint::Other }),
+            port: u16::try_from(segment.connection).unwrap_or(u16::MAX),
+            line: segment.line,
+            offset: segment.offset as u32,
+            // Nothing stands in the packet but the telegram.
+            facts: Some(Facts { bare: true, ..Facts::default() }),
+            ..Chunk::default()
+        };
+    }
     let direction = if segment.from_client { Direction::Request } else { Direction::Response };
     Chunk {
         bytes: segment.bytes,

@@ -1,7 +1,7 @@
 //! Telegrams of a log read as far as anywhere else: with all their fields.
 
 use super::places::Places;
-use super::{Entry, Format, Log, Role, Source, time_text};
+use super::{Entry, Format, Log, Role, Source, State, time_text};
 use crate::dialogue::traffic::latency;
 use crate::dialogue::{self, Candidate, Certainty, Choice, Guess};
 use crate::field::{Direction, Span};
@@ -83,6 +83,10 @@ impl Log {
         let mut report = self.report(source, &indices);
         // Whoever gets all of them need not know what was left out.
         report.telegrams.iter_mut().zip(1..).for_each(|(telegram, number)| telegram.number = number);
+        // The last one may still be answered.
+        if let Some(last) = report.telegrams.last_mut().filter(|last| last.state == Some(State::Unanswered)) {
+            last.state = Some(State::Plain);
+        }
         let statistics = self.statistics();
         report.counted = Some(Summary {
             telegrams: report.telegrams.len(),
@@ -151,15 +155,18 @@ impl Log {
 
     /// Finds the writes that set up what others mean, for the device that is chosen.
     pub(super) fn find_lessons(&mut self) {
-        let Some(profile) = self.options.device else {
+        if self.options.devices().next().is_none() {
             self.teaching.clear();
             return;
-        };
+        }
         let teaches = |entry: &Entry| {
             matches!(entry.function, 6 | 16 | 100 | 101)
                 && entry.direction == Direction::Request
                 && self.registers(entry).is_some_and(|(start, count)| {
-                    (start..=start.saturating_add(count)).any(|address| profile.teaches(address))
+                    let device = self.options.device_of(entry.unit);
+                    device.is_some_and(|device| {
+                        (start..=start.saturating_add(count)).any(|address| device.teaches(address))
+                    })
                 })
         };
         let entries = self.entries().iter().enumerate();
@@ -193,6 +200,7 @@ impl Log {
             step: None,
             time: entry.time().map(time_text),
             latency: self.latency(entry),
+            state: Some(self.state(entry)),
             comment: String::new(),
             line,
         }

@@ -36,6 +36,14 @@ impl Log {
             let more = spoken - MOST_UNITS;
             story.push(message!("{n} more in the table", n = many(more, "unit")));
         }
+        story.extend(self.remarks());
+        story
+    }
+
+    /// What there is to say besides the units.
+    pub(super) fn remarks(&self) -> Vec<Message> {
+        let all = self.statistics();
+        let mut story = Vec::new();
         let mut say = |n: usize, message: &dyn Fn(String) -> Message, noun: &str| {
             if n > 0 {
                 story.push(message(many(n, noun)));

@@ -1,6 +1,7 @@
-// Starts Buslens, as a page and as the page's worker: the glue first, which then fetches the wasm.
+
+// Starts Buslens, as a page and as the page's worker. What stands before this says how its parts are come
+// by: `inPage`, `load`, `started`, `advice` and `startWorker`.
 // The note in the page says what is wrong where not even this script may run, see page.rs.
-const inPage = "document" in globalThis;
 try {
   // Chosen in an earlier visit, see header.rs; a browser may forbid to look.
   if (inPage) document.documentElement.dataset.theme = localStorage.getItem("buslens.theme") ?? "";
@@ -8,8 +9,7 @@ try {
 (async () => {
   const note = inPage ? document.getElementById("boot") : null;
   try {
-    const page = await import("./page.js");
-    await page.default({ module_or_path: new URL("./page.wasm", import.meta.url) });
+    await load();
     note?.remove();
   } catch (error) {
     console.error(error);
@@ -19,9 +19,11 @@ try {
       return;
     }
     note.textContent =
-      "Buslens could not start. Check the connection and reload the page. " +
+      `Buslens could not start. ${advice} ` +
       "If that does not help, try a current version of Firefox, Chrome, Edge or Safari.";
     note.className = "failed";
     note.setAttribute("role", "alert");
+    return;
   }
+  if (inPage) started();
 })();
