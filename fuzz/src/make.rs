@@ -266,9 +266,9 @@ fn valued(random: &mut Random, bytes: &mut [u8]) {
     let checked = CRC_16_MODBUS.wire(&bytes[..length])
         == u64::from(u16::from_be_bytes([bytes[length], bytes[length + 1]]));
     let end = if checked { length } else { length + 2 };
-    for at in 3..end {
+    for byte in &mut bytes[3..end] {
         if random.one_in(3) {
-            bytes[at] = [0, 0x80, 0x42, 0x7F, 0xC0, random.byte()][random.below(6)];
+            *byte = [0, 0x80, 0x42, 0x7F, 0xC0, random.byte()][random.below(6)];
         }
     }
     if checked {

@@ -33,7 +33,7 @@ fn run(data: &[u8]) {
         let parameter = u16::from_be_bytes([input.byte() % 0x3F, input.byte()]);
         match what & 3 {
             0 => list.remove(&mut settings, index),
-            words => list.set(&mut settings, index, parameter, input.byte(), 1 + (words as u8 & 1)),
+            words => list.set(&mut settings, index, parameter, input.byte(), 1 + (words & 1)),
         }
         let rows = list.rows(&settings);
         assert!(rows.len() <= list.most().max(255), "{list:?}: {} rows", rows.len());
