@@ -401,7 +401,7 @@ async fn the_page_as_one_file_opens_from_a_disk() -> Result {
     page.until(".lead h2", SAID).await?;
     page.view("build").await?;
     page.fill("main input", "write 123.456 good to channel 6").await?;
-    page.until("main", "number 6, value 123.456").await?;
+    page.until("main", "Write Universal channel 6 = 123.456, good").await?;
     use_all_of_it(&page, &log).await?;
     assert_eq!(page.value("return workers").await?, json!(1), "the log is read by the worker");
     assert_eq!(page.value("return violations").await?, json!([]));
