@@ -174,6 +174,9 @@ impl Linked for CheckState {
     }
 }
 
+/// What views are about, as far as they were made.
+type States = Vec<(View, Box<dyn Linked>)>;
+
 /// The later parts, as far as they are there.
 #[derive(Clone, Copy)]
 pub struct Later {
@@ -181,7 +184,7 @@ pub struct Later {
     log: RwSignal<Stage, LocalStorage>,
     /// Owns what the parts make.
     app: StoredValue<Owner>,
-    states: StoredValue<Vec<(View, Box<dyn Linked>)>, LocalStorage>,
+    states: StoredValue<States, LocalStorage>,
     /// What views are to show once they are there.
     waiting: StoredValue<Vec<(View, Link)>, LocalStorage>,
 }

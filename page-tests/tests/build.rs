@@ -402,3 +402,44 @@ async fn keystrokes_in_a_long_form() -> Result {
     println!("keystroke in a form of 123 registers: {median:.1} ms until its frame is done");
     page.close().await
 }
+
+/// A hit says its telegram, and what tells it from its neighbours.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_hit_says_what_it_would_send() -> Result {
+    let page = Page::open_at("#/build", DESKTOP, false).await?;
+    page.fill_in(SEARCH, "write 123.456 good to channel 6").await?;
+    let hits = page.texts(".finder [role=option]").await?;
+    assert!(hits[0].contains("Write Universal channel 6 = 123.456, good"), "{hits:?}");
+    assert!(hits[0].contains("float, registers 215 to 217, function 16"), "{hits:?}");
+    assert!(hits[1].contains("double, registers 5225 to 5229"), "{hits:?}");
+    page.close().await
+}
+
+/// Only what the device rejects with is offered.
+#[tokio::test(flavor = "multi_thread")]
+async fn exceptions_are_those_of_the_device() -> Result {
+    let page = Page::open_at("#/build", DESKTOP, false).await?;
+    for (sentence, last) in [("read channel 6", "Exception 4"), ("read Sy.52", "Exception 67")] {
+        page.fill_in(SEARCH, sentence).await?;
+        page.press(Key::Enter + "").await?;
+        page.settle().await?;
+        let exceptions = page.texts(".exceptions li span").await?;
+        assert!(exceptions.last().is_some_and(|it| it.starts_with(last)), "{sentence}: {exceptions:?}");
+        assert!(!exceptions.iter().any(|it| it.contains("gateway")), "{sentence}: {exceptions:?}");
+    }
+    page.close().await
+}
+
+/// What has one right value needs no number to be typed.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_status_is_chosen_by_its_name() -> Result {
+    let page = Page::open_at("#/build", DESKTOP, false).await?;
+    page.fill_in(SEARCH, "write 5 to channel 1").await?;
+    page.press(Key::Enter + "").await?;
+    page.settle().await?;
+    assert!(page.bytes_in(REQUEST).await?.contains("00 80 40 A0"));
+    page.tick_option("Invalid").await?;
+    assert!(!page.bytes_in(REQUEST).await?.contains("00 80 40 A0"));
+    page.until(&format!("{REQUEST} .said"), "invalid").await?;
+    page.close().await
+}

@@ -147,3 +147,19 @@ async fn no_input_is_too_much() -> Result {
     assert_eq!(page.holds(BYTES).await?, "01 02");
     page.close().await
 }
+
+/// A receiver goes on over the CRC, and ends at 0000h: a click away.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_frame_ends_at_zero_with_its_crc() -> Result {
+    let page = Page::open_at("#/check", DESKTOP, false).await?;
+    page.until(".worth", "ends at 0000h").await?;
+    page.press_button("Show it: go on over the CRC").await?;
+    page.until(".outcome", "0000h").await?;
+    page.until(".verdict", "0000h over a whole frame").await?;
+    page.until(".step .number", "Step 72 of 72").await?;
+    // What other checks are worth is another matter.
+    page.choose_in("Algorithm", "LRC (Modbus ASCII)").await?;
+    page.until(".worth", "1 in 256").await?;
+    assert_eq!(page.accessibility().await?, [""; 0]);
+    page.close().await
+}

@@ -246,3 +246,36 @@ async fn a_link_brings_its_own_set_up() -> Result {
     assert_eq!(page.count(".borrowed").await?, 0);
     page.close().await
 }
+
+/// A line with a recorder and a drive: each unit is named once, and read in the words of its manual.
+#[tokio::test(flavor = "multi_thread")]
+async fn units_have_devices_of_their_own() -> Result {
+    let log = "01+03+00+C8+00+03+84+35%0A01+03+06+00+80+42+A4+F1+DE+D0+2E%0A03+03+20+34+00+01+CF+E6";
+    let page = Page::open_at(&format!("#/read?text={log}"), DESKTOP, false).await?;
+    page.wait_for(".byte-strip").await?;
+    page.view("devices").await?;
+    page.until(".units", "2 units").await?;
+    page.choose_in("Device of unit 3", "KEB COMBIVERT F5 on Modbus").await?;
+    page.until(CHANGES, "Unit 3 is KEB COMBIVERT F5 on Modbus.").await?;
+    page.choose_in("Device of unit 1", "Endress+Hauser Memograph M RSG45").await?;
+    page.until(".units", "2 units, 2 devices.").await?;
+    // One that Read does not show.
+    page.fill_in("Another unit", "400").await?;
+    page.until(".units", "A unit is a number from 1 to 247.").await?;
+    page.fill_in("Another unit", "9").await?;
+    page.choose_in("Device of another unit", "KEB COMBIVERT F5 on Modbus").await?;
+    page.until(CHANGES, "Unit 9 is KEB COMBIVERT F5 on Modbus.").await?;
+    assert_eq!(page.accessibility().await?, [""; 0]);
+    page.picture("devices-units").await?;
+    page.press_button("Forget unit 9").await?;
+    assert!(!page.text(CHANGES).await?.contains("Unit 9"));
+    page.press_button("Undo").await?;
+    page.until(CHANGES, "Unit 9").await?;
+    // Read says each in its own words.
+    let read = format!("#/read?text={}", log.rsplit("%0A").next().unwrap_or_default());
+    page.go(&read).await?;
+    page.until("main h2", "Set speed").await?;
+    page.go("#/read?text=01+03+00+C8+00+03+84+35").await?;
+    page.until("main h2", "Universal channel 1").await?;
+    page.close().await
+}

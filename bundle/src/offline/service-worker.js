@@ -53,13 +53,17 @@ async function fill() {
 async function begin() {
   await clients.claim();
   await tidy();
-  for (const client of await clients.matchAll({ type: "window" })) client.postMessage(VERSION);
+  for (const client of await clients.matchAll({ type: "window" })) {
+    // A copy in a folder below has no worker of its own yet.
+    if (new URL("./", client.url).href === registration.scope) client.postMessage(VERSION);
+  }
 }
 
 /** Removes other versions, but those that an open page is of. */
 async function tidy() {
-  // One that is on its way fills its cache.
-  if (registration.installing || registration.waiting) return;
+  // One that is on its way fills its cache, and then has the say.
+  const coming = [registration.installing, registration.waiting].some((it) => it && it !== self.serviceWorker);
+  if (coming || self.serviceWorker?.state === "redundant") return;
   // Open pages hold a lock that is called like their cache.
   const locks = (await navigator.locks?.query())?.held ?? [];
   const used = [CACHE, ...locks.map((lock) => lock.name)];

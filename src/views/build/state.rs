@@ -9,7 +9,7 @@ use crate::components::byte_strip::Lights;
 use crate::components::form::Edit;
 use crate::components::telegram::Shown;
 use crate::views::devices::DeviceSettings;
-use buslens::field::{Direction, Message, hex};
+use buslens::field::{Direction, Format, Message, hex, leaves};
 use buslens::tool::link::Link;
 use buslens::tool::log::brief;
 use buslens::tool::{
@@ -144,7 +144,10 @@ impl BuildState {
             false => format!("register {registers}"),
         });
         let function = shown.detail.function.map(|function| format!("function {function}"));
-        let facts = [registers, function].into_iter().flatten().collect::<Vec<_>>().join(", ");
+        let blocks = shown.detail.device.blocks.iter().map(|block| std::slice::from_ref(&block.field));
+        let float = blocks.flat_map(leaves).find(|leaf| leaf.spec.format == Format::Float);
+        let float = float.map(|leaf| if leaf.span.len() > 4 { "double" } else { "float" }.to_owned());
+        let facts = [float, registers, function].into_iter().flatten().collect::<Vec<_>>().join(", ");
         Some((brief(&shown.detail.said), facts))
     }
 

@@ -116,7 +116,8 @@ fn Lines(lines: Vec<Line>, with_bytes: bool) -> impl IntoView {
                     {line.said.clone()} {with_bytes.then(|| view! { <code>{line.hex()}</code> })} {faults}
                 </td>
                 <td>
-                    <StateBadge state=line.state latency=line.latency /> <span class="note">{times}</span>
+                    <StateBadge state=line.state latency=line.latency />
+                    {times.map(|times| view! { <span class="times note">{times}</span> })}
                 </td>
             </tr>
         }

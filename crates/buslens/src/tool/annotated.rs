@@ -1,7 +1,8 @@
 //! A report as plain text for a mail or a ticket: every telegram with its bytes and what they say.
 
+use super::digest::columns;
 use super::{Report, Verdict};
-use crate::field::{Direction, Field, Severity, count, hex};
+use crate::field::{Direction, Severity, count, hex};
 
 /// The whole report.
 ///
@@ -68,22 +69,8 @@ pub fn telegram(report: &Report, index: usize) -> String {
     if !telegram.comment.is_empty() {
         text += &format!("   Note: {}\n", telegram.comment);
     }
-    let mut rows = Vec::new();
-    for block in &detail.device.blocks {
-        rows_of(&block.field, bytes, 0, &mut rows);
-    }
-    if !rows.is_empty() {
-        rows.push(Default::default());
-    }
-    detail.fields.iter().for_each(|field| rows_of(field, bytes, 0, &mut rows));
-    let width =
-        |column: usize| rows.iter().map(|row: &[String; 4]| row[column].chars().count()).max().unwrap_or(0);
-    let widths = [width(0).min(WIDEST), width(1), width(2)];
-    for [bytes, label, value, meaning] in &rows {
-        let [w0, w1, w2] = widths;
-        let line = format!("   {bytes:w0$}  {label:w1$}  {value:w2$}  {meaning}");
-        text += line.trim_end();
-        text.push('\n');
+    for row in columns(&report.field_rows(index)) {
+        text += &format!("   {row}\n");
     }
     for problem in detail.problems() {
         let mark = if problem.severity == Severity::Error { "Error" } else { "Warning" };
@@ -99,18 +86,8 @@ pub fn telegram(report: &Report, index: usize) -> String {
     text
 }
 
-/// Longer runs of bytes have no column of their own.
-const WIDEST: usize = 24;
 /// So many causes of a failed check are told.
 const EXPLAINED: usize = 2;
-
-/// Bytes, label, value and meaning of a field and of those within it.
-fn rows_of(field: &Field, bytes: &[u8], depth: usize, rows: &mut Vec<[String; 4]>) {
-    let meaning = field.meaning().map_or(String::new(), |meaning| meaning.to_string());
-    let label = format!("{}{}", "  ".repeat(depth), field.label().sentence());
-    rows.push([hex(field.span.of(bytes)), label, field.value_text(), meaning]);
-    field.children.iter().for_each(|child| rows_of(child, bytes, depth + 1, rows));
-}
 
 #[cfg(test)]
 mod tests {

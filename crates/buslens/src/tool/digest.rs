@@ -165,7 +165,9 @@ impl Report {
         }
         let protocol = self.telegrams.first().map(|telegram| telegram.choice.protocol.label);
         let device = self.device(0).map(|device| device.label);
-        let facts = [Some(count(all, "telegram")), protocol.map(str::to_owned), device.map(str::to_owned)];
+        // The sentence of one telegram does not count it.
+        let counted = (all == 1).then(|| count(all, "telegram"));
+        let facts = [counted, protocol.map(str::to_owned), device.map(str::to_owned)];
         let headline = match (all, self.detail(0)) {
             (1, Some(detail)) => detail.meaning().sentence() + ".",
             _ => annotated::summary(self).trim_end().to_owned(),
@@ -197,7 +199,7 @@ impl Report {
 /// Bytes, label, value and meaning of a field and of those within it.
 fn add_rows(field: &Field, bytes: &[u8], depth: usize, rows: &mut Vec<[String; 4]>) {
     let meaning = field.meaning().map_or(String::new(), |meaning| meaning.to_string());
-    let label = format!("{}{}", "\u{2003}".repeat(depth), field.label().sentence());
+    let label = format!("{}{}", "  ".repeat(depth), field.label().sentence());
     rows.push([hex(field.span.of(bytes)), label, field.value_text(), meaning]);
     field.children.iter().for_each(|child| add_rows(child, bytes, depth + 1, rows));
 }
@@ -264,9 +266,10 @@ impl Digest {
         text
     }
 
-    /// As HTML for the clipboard: what mails keep of it, with all styles at the elements.
+    /// As HTML for the clipboard: elements and attributes that mails keep, and no styles, which browsers drop
+    /// from what pages under a strict policy copy.
     pub fn html(&self, with_bytes: bool) -> String {
-        let mut html = String::from("<div style=\"font-family:sans-serif;font-size:14px;color:#111\">");
+        let mut html = String::from("<div>");
         let title =
             if self.title.is_empty() { String::new() } else { format!("<b>{}</b>: ", escaped(&self.title)) };
         html += &format!("<p>{title}{}<br><b>{}</b></p>", escaped(&self.read), escaped(&self.headline));
@@ -296,7 +299,7 @@ impl Digest {
                 .fields
                 .iter()
                 .map(|[bytes, label, value, meaning]| {
-                    vec![code(bytes), escaped(label), escaped(value), escaped(meaning)]
+                    vec![code(bytes), indented(label), escaped(value), escaped(meaning)]
                 })
                 .collect();
             let heads = ["Bytes", "Field", "Value", "Meaning"];
@@ -390,7 +393,7 @@ fn milliseconds(micros: u32) -> String {
 }
 
 /// Text in columns of their own width.
-fn columns(rows: &[[String; 4]]) -> Vec<String> {
+pub(super) fn columns(rows: &[[String; 4]]) -> Vec<String> {
     /// Longer runs of bytes have no column of their own.
     const WIDEST: usize = 24;
     let width = |column: usize| {
@@ -406,18 +409,25 @@ fn columns(rows: &[[String; 4]]) -> Vec<String> {
 
 /// A table whose cells are HTML already.
 fn table(heads: &[&str], rows: &[Vec<String>]) -> String {
-    const CELL: &str = "border:1px solid #ccc;padding:3px 8px;text-align:left;vertical-align:top";
-    let head: String = heads.iter().map(|head| format!("<th style=\"{CELL}\">{head}</th>")).collect();
+    let head: String = heads.iter().map(|head| format!("<th align=\"left\">{head}</th>")).collect();
     let row = |row: &Vec<String>| {
-        let cells: String = row.iter().map(|cell| format!("<td style=\"{CELL}\">{cell}</td>")).collect();
-        format!("<tr>{cells}</tr>")
+        let cells: String = row.iter().map(|cell| format!("<td>{cell}</td>")).collect();
+        format!("<tr valign=\"top\">{cells}</tr>")
     };
     let rows: String = rows.iter().map(row).collect();
-    format!("<table style=\"border-collapse:collapse\"><tr>{head}</tr>{rows}</table>")
+    format!(
+        "<table border=\"1\" cellpadding=\"4\" cellspacing=\"0\"><tr valign=\"top\">{head}</tr>{rows}</table>"
+    )
 }
 
 fn code(text: &str) -> String {
-    format!("<span style=\"font-family:monospace\">{}</span>", escaped(text))
+    format!("<code>{}</code>", escaped(text))
+}
+
+/// A label whose place in the tree its spaces say.
+fn indented(label: &str) -> String {
+    let plain = label.trim_start();
+    format!("{}{}", "&emsp;".repeat((label.len() - plain.len()) / 2), escaped(plain))
 }
 
 /// Text that is no markup.
@@ -446,7 +456,7 @@ mod tests {
         digest.title = "<b>\"a\" & b.log".to_owned();
         let html = digest.html(true);
         assert!(html.contains("<b>&lt;b&gt;&quot;a&quot; &amp; b.log</b>: 1 telegram"), "{html}");
-        for tag in ["p", "ol", "ul", "table", "tr", "td", "th", "div", "b", "span", "li"] {
+        for tag in ["p", "ol", "ul", "table", "tr", "td", "th", "div", "b", "code", "li"] {
             let ends = html.matches(&format!("</{tag}>")).count();
             let begins =
                 html.matches(&format!("<{tag}>")).count() + html.matches(&format!("<{tag} ")).count();

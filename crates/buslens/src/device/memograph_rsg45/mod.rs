@@ -99,7 +99,7 @@ static WRITTEN_STATUS: Spec = Spec::new("status", "Status")
     .role(Role::Status)
     .initial(0x80)
     .bits(&[
-        Bits::part(0, 8, "worth", "worth")
+        Bits::part(0, 8, "worth", "quality")
             .names(&[
                 Name { value: 0x80, label: "good", note: "As all from 80h to FFh." },
                 Name { value: 0x40, label: "uncertain", note: "As all from 40h to 7Fh." },
@@ -128,7 +128,7 @@ const fn status(key: &'static str, label: &'static str) -> Spec {
         .role(Role::Status)
         .bits(STATUS_BITS)
         .note(
-            "What the value is worth (low byte), and which of the channel's first eight limits are \
+            "The quality of the value (low byte), and which of the channel's first eight limits are \
              violated (high byte, from the device only).",
         )
         .source("Memograph M RSG45 Modbus supplement, 2.6.14")
