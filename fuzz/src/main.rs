@@ -1,9 +1,10 @@
-//! Runs the targets for a time: `fuzz SECONDS [--seed N] [--only TARGET]`, or one input again:
-//! `fuzz --replay FILE`.
+//! Runs the targets for a time: `fuzz SECONDS [--seed N] [--only TARGET] [--threads N]`, or one input
+//! again: `fuzz --replay FILE`.
 
 mod memory;
 
 use std::collections::HashMap;
+use std::num::NonZero;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -17,7 +18,7 @@ use fuzz::{Random, Seeds, TARGETS, Target, smaller};
 static MEMORY: memory::Counted = memory::Counted;
 
 const USAGE: &str = "\
-Usage: fuzz SECONDS [--seed N] [--only TARGET]
+Usage: fuzz SECONDS [--seed N] [--only TARGET] [--threads N]
        fuzz --replay FILE";
 
 /// Where failing inputs go, below Cargo's target folder.
@@ -36,19 +37,26 @@ fn main() -> ExitCode {
     };
     let Ok(seconds) = seconds.parse() else { return refuse() };
     let (mut seed, mut only) = (None, None);
+    let mut threads = std::thread::available_parallelism().map_or(1, usize::from);
     for pair in options.chunks(2) {
-        match *pair {
-            ["--seed", number] => seed = number.parse().ok(),
-            ["--only", key] => only = TARGETS.iter().copied().find(|target| target.key == key),
-            _ => return refuse(),
-        }
-        if seed.is_none() && only.is_none() {
+        let understood = match *pair {
+            ["--seed", number] => number.parse().map(|number| seed = Some(number)).is_ok(),
+            ["--only", key] => {
+                only = TARGETS.iter().copied().find(|target| target.key == key);
+                only.is_some()
+            }
+            ["--threads", number] => {
+                number.parse().map(|number: NonZero<usize>| threads = number.get()).is_ok()
+            }
+            _ => false,
+        };
+        if !understood {
             return refuse();
         }
     }
     // Without one, each run tries other inputs.
     let seed = seed.unwrap_or_else(|| std::time::UNIX_EPOCH.elapsed().map_or(1, |elapsed| elapsed.as_secs()));
-    match run(Duration::from_secs(seconds), seed, only) {
+    match run(Duration::from_secs(seconds), seed, only, threads) {
         Ok(0) => ExitCode::SUCCESS,
         Ok(_) => ExitCode::FAILURE,
         Err(error) => {
@@ -103,12 +111,11 @@ struct Run {
     over: AtomicBool,
 }
 
-/// Runs all targets on all processors; returns how many kinds of failures there are.
-fn run(time: Duration, seed: u64, only: Option<&'static Target>) -> Result<usize, String> {
+/// Runs all targets, or only one; returns how many kinds of failures there are.
+fn run(time: Duration, seed: u64, only: Option<&'static Target>, threads: usize) -> Result<usize, String> {
     let seeds = Seeds::load().map_err(|error| format!("The vectors cannot be read: {error}."))?;
     let targets: Vec<&'static Target> =
         TARGETS.iter().copied().filter(|target| only.is_none_or(|only| only.key == target.key)).collect();
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let start = Instant::now();
     let run = Run {
         counts: targets.iter().map(|_| AtomicU64::new(0)).collect(),
@@ -176,13 +183,11 @@ fn try_input(target: &Target, input: &[u8]) -> Result<(), (String, String)> {
     let before = memory::begin();
     let outcome = catch_unwind(AssertUnwindSafe(|| (target.run)(input)));
     let used = memory::peak().saturating_sub(before);
-    /// The most memory for each byte of input, and for none: a report of some hundred telegrams in as many short
-    /// lines, with all that there is to say of them.
+    /// The most memory for each byte of input.
     const FOR_EACH: usize = 400;
-    const AT_LEAST: usize = 3 << 20;
     match outcome {
         Err(_) => Err(PANIC.take()),
-        Ok(()) if used > AT_LEAST + FOR_EACH * input.len() => {
+        Ok(()) if used > target.memory + FOR_EACH * input.len() => {
             Err(("memory".to_owned(), format!("{used} bytes of memory for {} of input", input.len())))
         }
         Ok(()) => Ok(()),

@@ -2,13 +2,14 @@
 
 use std::time::{Duration, Instant};
 
+use buslens::field::hex;
 use buslens::frame::Cargo;
 use buslens::modbus::{DIALECTS, KINDS};
 use buslens::profibus;
 use buslens::tool::PROTOCOLS;
 use buslens::walk::{self, CRC_16_MODBUS, Deviations};
 
-use crate::seeds::WORDS;
+use crate::seeds::{ASKED, Exchange, WORDS};
 use crate::{Random, Seeds};
 
 /// Random bytes to choose by, see [`Input`](crate::Input).
@@ -151,7 +152,7 @@ pub fn capture(random: &mut Random, seeds: &Seeds) -> Vec<u8> {
         let packet = packet(way, sequence[way], &payload[..payload.len().min(300)]);
         sequence[way] = sequence[way].wrapping_add(payload.len() as u32);
         let time = random.number() >> random.below(64);
-        file.extend(if ng { block(time, &packet) } else { record(time, &packet) });
+        file.extend(if ng { packet_block(time, &packet) } else { record(time, &packet) });
     }
     if random.one_in(2) {
         change(random, &mut file, seeds);
@@ -174,7 +175,7 @@ fn section() -> Vec<u8> {
     words.map(u32::to_be_bytes).concat()
 }
 
-fn block(time: u64, packet: &[u8]) -> Vec<u8> {
+fn packet_block(time: u64, packet: &[u8]) -> Vec<u8> {
     let (length, padded) = (packet.len() as u32, packet.len().next_multiple_of(4));
     let whole = 32 + padded as u32;
     let words = [6, whole, 0, (time >> 32) as u32, time as u32, length, length].map(u32::to_be_bytes);
@@ -201,6 +202,100 @@ fn packet(way: usize, sequence: u32, payload: &[u8]) -> Vec<u8> {
         payload,
     ]
     .concat()
+}
+
+/// Bytes without a frame: what stands in a telegram behind its head, values, or anything.
+pub fn block(random: &mut Random, seeds: &Seeds) -> Vec<u8> {
+    /// States, values, entries of mappings and heads of channels as devices have them.
+    const VALUES: &[&[u8]] = &[
+        &[0x00, 0x80],
+        &[0x02, 0x80],
+        &[0x00, 0x40],
+        &[0x42, 0xA4, 0xF1, 0xDE],
+        &[0x40, 0x54, 0x9E, 0x3B, 0xC0, 0, 0, 0],
+        &[0x7F, 0xC0, 0, 0],
+        &[0, 0],
+        &[0, 0, 0, 0],
+        &[0xFF, 0xFF],
+        &[0x00, 0x33, 0x01, 0x01],
+        &[0x41, 0x00, 0x23, 0x00],
+        &[0xB7, 0xA3, 0x93],
+        &[0x88, 0x01, 0x0A, 0x0B, 0x05, 0xEB, 0x00],
+    ];
+    let mut bytes = Vec::new();
+    if random.one_in(3) {
+        let telegram = telegram(random, seeds);
+        let from = random.below(telegram.len() + 1).min(8);
+        bytes.extend(&telegram[from..telegram.len().min(80)]);
+    } else {
+        (0..1 + random.below(6)).for_each(|_| bytes.extend(random.of(VALUES)));
+    }
+    if random.one_in(2) {
+        change(random, &mut bytes, seeds);
+    }
+    bytes
+}
+
+/// Requests of one device in its words, each with what comes back, a line each: some over and over.
+pub fn conversation(random: &mut Random, seeds: &Seeds) -> Vec<u8> {
+    let exchanges = &seeds.exchanges[random.below(seeds.exchanges.len())];
+    let few: Vec<&Exchange> =
+        (0..1 + random.below(3)).map(|_| &exchanges[random.below(exchanges.len())]).collect();
+    let mut text = String::new();
+    for _ in 0..1 + random.below(5) {
+        let exchange = few[random.below(few.len())];
+        let mut said = vec![exchange.request.clone()];
+        if let Some(mut reply) = exchange.replies.get(random.below(2).min(exchange.replies.len())).cloned() {
+            valued(random, &mut reply);
+            said.push(reply);
+        }
+        for mut bytes in said {
+            if random.one_in(12) {
+                change(random, &mut bytes, seeds);
+            }
+            text.push_str(&hex(&bytes));
+            text.push('\n');
+        }
+    }
+    text.into_bytes()
+}
+
+/// Gives a response other values, and the check that belongs to them.
+fn valued(random: &mut Random, bytes: &mut [u8]) {
+    let Some(length) = bytes.len().checked_sub(2).filter(|length| *length > 3) else { return };
+    let checked = CRC_16_MODBUS.wire(&bytes[..length])
+        == u64::from(u16::from_be_bytes([bytes[length], bytes[length + 1]]));
+    let end = if checked { length } else { length + 2 };
+    for byte in &mut bytes[3..end] {
+        if random.one_in(3) {
+            *byte = [0, 0x80, 0x42, 0x7F, 0xC0, random.byte()][random.below(6)];
+        }
+    }
+    if checked {
+        let check = (CRC_16_MODBUS.wire(&bytes[..length]) as u16).to_be_bytes();
+        bytes[length..].copy_from_slice(&check);
+    }
+}
+
+/// What somebody types to find something: words of the manuals and of sentences.
+pub fn sentence(random: &mut Random, seeds: &Seeds) -> Vec<u8> {
+    let mut text = String::new();
+    for _ in 0..1 + random.below(5) {
+        match random.below(8) {
+            0 | 1 => text.push_str(&seeds.sentences[random.below(seeds.sentences.len())]),
+            2 | 3 => text.push_str(random.of(WORDS)),
+            _ => text.push_str(random.of(ASKED)),
+        }
+        if !random.one_in(8) {
+            text.push(' ');
+        }
+    }
+    text.truncate(text.floor_char_boundary(200));
+    let mut bytes = text.into_bytes();
+    if random.one_in(3) {
+        disturb(random, &mut bytes);
+    }
+    bytes
 }
 
 /// Lines of words, as links and settings are.

@@ -1,19 +1,35 @@
 use std::path::Path;
 
-use buslens::tool::{Options, decode};
+use buslens::tool::{Editor, Offer, Options, PROFILES, PROTOCOLS, Profile, Settings, decode};
 
 /// What inputs are made of.
 #[derive(Debug, Default)]
 pub struct Seeds {
     /// Telegrams, as bytes.
     pub telegrams: Vec<Vec<u8>>,
+    /// What can be asked of each device.
+    pub exchanges: Vec<Vec<Exchange>>,
+    /// What somebody types who looks for something to build, and the names of the manuals.
+    pub sentences: Vec<String>,
+}
+
+/// A request with what can come back.
+#[derive(Debug)]
+pub struct Exchange {
+    pub request: Vec<u8>,
+    pub replies: Vec<Vec<u8>>,
 }
 
 impl Seeds {
-    /// The telegrams of the library's vectors.
+    /// The telegrams of the library's vectors, and what its devices understand.
     pub fn load() -> std::io::Result<Self> {
-        let mut seeds = Self::default();
-        let mut folders = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates/buslens/tests/vectors")];
+        let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates/buslens/tests");
+        let mut seeds = Self {
+            exchanges: PROFILES.iter().copied().map(exchanges).collect(),
+            sentences: sentences(&std::fs::read_to_string(tests.join("manuals/words.tsv"))?),
+            ..Self::default()
+        };
+        let mut folders = vec![tests.join("vectors")];
         let mut paths = Vec::new();
         while let Some(folder) = folders.pop() {
             for entry in std::fs::read_dir(folder)? {
@@ -36,6 +52,90 @@ impl Seeds {
         Ok(seeds)
     }
 }
+
+/// Everything that can be asked of a device, as it is built with nothing filled in.
+fn exchanges(device: &'static Profile) -> Vec<Exchange> {
+    let settings = Settings::default();
+    let exchange = |task| {
+        let editors = PROTOCOLS
+            .iter()
+            .filter_map(|protocol| Editor::new(Offer::Task(task), 5, protocol, &settings).ok());
+        editors
+            .filter_map(|mut editor| {
+                let replies = editor.replies(&settings).into_iter().map(|(_, bytes)| bytes).collect();
+                Some(Exchange { request: editor.bytes().ok()?, replies })
+            })
+            .next()
+    };
+    device.tasks().into_iter().filter_map(exchange).collect()
+}
+
+/// The words of a table of searches, and every name of the manuals.
+fn sentences(table: &str) -> Vec<String> {
+    let typed = table.lines().filter_map(|line| line.split('\t').nth(1)).map(str::to_owned);
+    let areas = PROFILES.iter().flat_map(|profile| profile.areas).map(|area| area.spec.label.to_owned());
+    let parameters = PROFILES
+        .iter()
+        .flat_map(|profile| profile.parameters())
+        .flat_map(|parameter| [parameter.id, parameter.spec.label].map(str::to_owned));
+    let mut all: Vec<String> = typed.chain(areas).chain(parameters).filter(|text| !text.is_empty()).collect();
+    all.sort();
+    all.dedup();
+    all
+}
+
+/// The words of sentences.
+pub const ASKED: &[&str] = &[
+    "read",
+    "write",
+    "set",
+    "to",
+    "channel",
+    "digital",
+    "limit",
+    "batch",
+    "relay",
+    "good",
+    "on",
+    "off",
+    "6",
+    "40",
+    "0",
+    "123.456",
+    "-1500",
+    "1e9",
+    "0x5F00",
+    "2033h",
+    "40001",
+    "mapping",
+    "entry",
+    "event",
+    "text",
+    "Hello",
+    ";;60",
+    "5.7;10",
+    "factory",
+    "name",
+    "start",
+    "=",
+    "speed",
+    "8E1",
+    "999999999999",
+    "“",
+    "function",
+    "reset",
+    "unit",
+    "all",
+    "bits",
+    "parameter",
+    "reference",
+    "value",
+    "status",
+    "float",
+    "and",
+    "of",
+    ",",
+];
 
 /// What stands in texts, logs, links and settings.
 pub const WORDS: &[&str] = &[

@@ -31,6 +31,8 @@ pub const VIEWS: [&str; 5] = ["#/read", "#/build", "#/check", "#/devices", "#/sh
 /// A page of its own in a browser of its own.
 pub struct Page {
     pub driver: WebDriver,
+    /// What its browser keeps, and by which it is known among others.
+    profile: tempfile::TempDir,
 }
 
 impl Page {
@@ -67,6 +69,8 @@ impl Page {
         ] {
             options.add_arg(argument)?;
         }
+        let profile = tempfile::tempdir()?;
+        options.add_arg(&format!("--user-data-dir={}", profile.path().display()))?;
         options.set_browser_log_level(LoggingPrefsLogLevel::All)?;
         let driver = WebDriver::new(&setting("WEBDRIVER_URL"), options).await?;
         let metrics =
@@ -74,7 +78,7 @@ impl Page {
         driver.cdp().send_raw("Emulation.setDeviceMetricsOverride", metrics).await?;
         let scheme = json!({ "name": "prefers-color-scheme", "value": if dark { "dark" } else { "light" } });
         driver.cdp().send_raw("Emulation.setEmulatedMedia", json!({ "features": [scheme] })).await?;
-        Ok(Self { driver })
+        Ok(Self { driver, profile })
     }
 
     /// Loads the page anew, with another view or a link.
@@ -256,6 +260,33 @@ impl Page {
                       rule.id + ': ' + rule.nodes.map((node) => node.target + ' ' + node.failureSummary).join('; '))));";
         let found = self.driver.execute_async(script, vec![]).await?;
         found.convert()
+    }
+
+    /// How much memory the page has with its workers, in MB, where the system tells.
+    pub fn memory(&self) -> Option<u64> {
+        let read = |process: u64, file: &str| std::fs::read_to_string(format!("/proc/{process}/{file}")).ok();
+        let status = |process, key: &str| {
+            let text = read(process, "status")?;
+            text.lines()
+                .find_map(|line| line.strip_prefix(key)?.split_whitespace().next()?.parse::<u64>().ok())
+        };
+        let all: Vec<u64> = std::fs::read_dir("/proc")
+            .ok()?
+            .filter_map(|entry| entry.ok()?.file_name().to_str()?.parse().ok())
+            .collect();
+        let own = format!("--user-data-dir={}", self.profile.path().display());
+        let started =
+            |process: u64, word: &str| read(process, "cmdline").is_some_and(|line| line.contains(word));
+        // The browser, what it started, and what that started.
+        let mut family: Vec<u64> =
+            all.iter().copied().filter(|it| started(*it, &own) && !started(*it, "--type=")).collect();
+        let mut next = 0;
+        while let Some(parent) = family.get(next).copied() {
+            next += 1;
+            family.extend(all.iter().copied().filter(|it| status(*it, "PPid:") == Some(parent)));
+        }
+        let renderers = family.into_iter().filter(|it| started(*it, "--type=renderer"));
+        Some(renderers.filter_map(|it| status(it, "VmRSS:")).sum::<u64>() / 1024)
     }
 
     /// What came to the browser's console since the last look.

@@ -248,6 +248,60 @@ async fn a_large_log_does_not_block_the_page() -> Result {
     page.close().await
 }
 
+/// Twenty logs of 20 MB one after another: what the page and its worker had for one is there for the next.
+#[tokio::test(flavor = "multi_thread")]
+#[ignore = "takes minutes: `cargo xtask test page twenty_large_logs -- --ignored`"]
+async fn twenty_large_logs_leave_nothing_behind() -> Result {
+    const WARM: usize = 3;
+    let folder = tempfile::tempdir()?;
+    let text = log(200_000);
+    let page = Page::open(DESKTOP, false).await?;
+    let mut used = Vec::new();
+    for n in 0..20 {
+        let name = format!("plant-{n}.log");
+        let path = file(folder.path(), &name, format!("# {n}\n{text}").as_bytes());
+        page.open_file(&path).await?;
+        page.until(".file-bar strong", &name).await?;
+        page.wait_for(".story h2").await?;
+        page.wait_for(".rows .row").await?;
+        std::fs::remove_file(path)?;
+        page.driver.cdp().send_raw("HeapProfiler.collectGarbage", json!({})).await?;
+        used.push(page.memory().expect("the system tells what a process has"));
+    }
+    println!("memory after each log of {:.1} MB, in MB: {used:?}", text.len() as f64 / 1e6);
+    // The first ones make the room that all others take.
+    let (first, last) = (&used[WARM..WARM + 5], &used[15..]);
+    let most = |of: &[u64]| of.iter().copied().max().unwrap_or_default();
+    assert!(most(last) * 10 <= most(first) * 11, "it grows: {used:?}");
+    page.close().await
+}
+
+/// Two tabs with the same log hear each other's notes, and neither loses its own.
+#[tokio::test(flavor = "multi_thread")]
+async fn notes_of_another_tab_are_heard() -> Result {
+    let page = Page::open(DESKTOP, false).await?;
+    let text = log(40);
+    page.paste(&text).await?;
+    page.wait_for(".rows [aria-selected=true]").await?;
+    page.fragment().await?;
+    let first = page.driver.window().await?;
+    let address = page.driver.current_url().await?.to_string();
+    let second = page.driver.new_tab().await?;
+    page.driver.switch_to_window(second.clone()).await?;
+    page.driver.goto(address).await?;
+    page.wait_for(".rows [aria-selected=true]").await?;
+    page.fill(".own-note input", "from the second tab").await?;
+    page.driver.switch_to_window(first).await?;
+    page.until(".rows .noted", "from the second tab").await?;
+    page.click(".rows .row:nth-child(3)").await?;
+    page.fill(".own-note input", "from the first").await?;
+    page.driver.switch_to_window(second).await?;
+    let kept = page.value("return localStorage.getItem('buslens.notes')").await?;
+    let kept = kept.as_str().unwrap_or_default();
+    assert!(kept.contains("from the second tab") && kept.contains("from the first"), "{kept}");
+    page.close().await
+}
+
 /// A worker that does not start, or is ended, is told, and the next file starts another one.
 #[tokio::test(flavor = "multi_thread")]
 async fn a_worker_that_fails_is_told_and_started_again() -> Result {

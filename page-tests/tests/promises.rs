@@ -293,6 +293,45 @@ async fn whatever_the_browser_keeps_the_page_starts() -> Result {
     page.close().await
 }
 
+/// A browser that keeps nothing, or has no room, or keeps no files: all views work until they are left.
+#[tokio::test(flavor = "multi_thread")]
+async fn storage_denied_or_full_breaks_no_view() -> Result {
+    let denied = |what: &str| {
+        format!(
+            "Object.defineProperty(window, '{what}', {{ get() {{ throw new DOMException('no', 'SecurityError') }} }});"
+        )
+    };
+    let full = "Storage.prototype.setItem = () => { throw new DOMException('no', 'QuotaExceededError') }; \
+                IDBObjectStore.prototype.put = () => { throw new DOMException('no', 'QuotaExceededError') };";
+    let nothing = "Object.defineProperty(window, 'localStorage', { value: null }); \
+                   Object.defineProperty(window, 'indexedDB', { value: null });";
+    let folder = tempfile::tempdir()?;
+    let log = folder.path().join("plant.log");
+    std::fs::write(&log, "TX 01 03 00 C8 00 03 84 35\n".repeat(4000))?;
+    for script in [denied("localStorage") + denied("indexedDB").as_str(), full.to_owned(), nothing.to_owned()]
+    {
+        let page = Page::open_at("#/read", DESKTOP, false).await?;
+        page.before_loading(&script).await?;
+        for view in VIEWS {
+            page.go(view).await?;
+            page.one("main h2, main input, main textarea").await?;
+            assert_eq!(page.count(".ended").await?, 0, "{script:.60} in {view}");
+        }
+        page.go("#/read").await?;
+        page.paste(ALL_SORTS).await?;
+        page.choose(1).await?;
+        assert_eq!(page.shown().await?, "01 03 06 00 08 42 A4 F1 DE B0 F8", "{script:.60}");
+        page.click_text(".top .menu > button", "Theme").await?;
+        page.click_text("[role=menuitem]", "Dark").await?;
+        page.open_file(&log.display().to_string()).await?;
+        page.wait_for(".rows .row").await?;
+        page.fill(".own-note input", "noise of the new drive").await?;
+        page.until(".rows .noted", "noise of the new drive").await?;
+        page.close().await?;
+    }
+    Ok(())
+}
+
 /// Measures and prints, and holds nothing against a noisy machine.
 #[tokio::test(flavor = "multi_thread")]
 async fn keystrokes() -> Result {

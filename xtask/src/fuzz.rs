@@ -6,7 +6,7 @@ use crate::tools;
 /// How long the short run of `cargo xtask test` takes.
 const SHORT: &str = "20";
 
-/// Takes what the program takes: `SECONDS [--seed N] [--only TARGET]`, or `--replay FILE`.
+/// Takes what the program takes: `SECONDS [--seed N] [--only TARGET] [--threads N]`, or `--replay FILE`.
 pub fn run(arguments: &[&str]) -> Result {
     let program = ["run", "--quiet", "--profile", "fuzz", "--package", "fuzz", "--"];
     steps::run(tools::cargo().args(program).args(arguments))

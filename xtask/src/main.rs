@@ -30,9 +30,9 @@ Usage: cargo xtask <command>
   serve [--port N]   builds as with --dev, serves dist/ on this machine and rebuilds after each change
   test               runs every check, from the formatting to the page in a browser
   test page [NAME]   only tests dist/ as it is in a browser, or those tests that are called so
-  fuzz SECONDS [--seed N] [--only TARGET]
+  fuzz SECONDS [--seed N] [--only TARGET] [--threads N]
                      tries random inputs against the library's laws; --replay FILE tries one again
-  mutants [--sample N] [--seed S]
+  mutants [--of codecs|reader] [--sample N] [--seed S]
                      changes the code here and there, and counts the changes that no test notices
   reproducible       builds the page in two folders and compares every byte
   --help             this text";

@@ -31,10 +31,16 @@ if (inPage) {
   });
 }
 
+/** Tells the worker that this page is there, and so the one before it is gone. */
+function tell() {
+  navigator.serviceWorker.controller?.postMessage("started");
+}
+
 async function keep() {
   const registration = await navigator.serviceWorker.register("./service-worker.js", { updateViaCache: "none" });
-  const { active } = await navigator.serviceWorker.ready;
-  active.postMessage("started");
+  await navigator.serviceWorker.ready;
+  tell();
+  navigator.serviceWorker.addEventListener("controllerchange", tell);
   document.documentElement.dataset.kept = "";
   let looked = Date.now();
   document.addEventListener("visibilitychange", () => {

@@ -53,18 +53,25 @@ async function fill() {
 async function begin() {
   await clients.claim();
   await tidy();
-  for (const client of await clients.matchAll({ type: "window" })) client.postMessage(VERSION);
+  for (const client of await clients.matchAll({ type: "window" })) {
+    // A copy in a folder below has no worker of its own yet.
+    if (new URL("./", client.url).href === registration.scope) client.postMessage(VERSION);
+  }
 }
 
-/** Removes other versions, but those that an open page is of. */
+/** Removes other versions, but those that an open page is of; and takes again what is missing of this one. */
 async function tidy() {
-  // One that is on its way fills its cache.
-  if (registration.installing || registration.waiting) return;
+  // One that is on its way fills its cache, and then has the say.
+  const coming = [registration.installing, registration.waiting].some((it) => it && it !== self.serviceWorker);
+  if (coming || self.serviceWorker?.state === "redundant") return;
   // Open pages hold a lock that is called like their cache.
   const locks = (await navigator.locks?.query())?.held ?? [];
   const used = [CACHE, ...locks.map((lock) => lock.name)];
   const others = (await caches.keys()).filter((name) => name.startsWith(OWN) && !used.includes(name));
   await Promise.all(others.map((name) => caches.delete(name)));
+  // A browser that is short of room, or a person, may have cleared the cache alone.
+  const kept = await (await caches.open(CACHE)).keys();
+  if (kept.length < Object.keys(FILES).length) await fill().catch(() => {});
 }
 
 async function page(request) {

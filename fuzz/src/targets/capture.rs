@@ -1,6 +1,6 @@
-use super::Target;
 use super::law::assert_same;
 use super::log::{read, show};
+use super::{Target, USUAL_MEMORY};
 use crate::{Input, make};
 use buslens::tool::Options;
 use buslens::tool::log::{Input as Kind, Reading};
@@ -10,6 +10,7 @@ pub static TARGET: Target = Target {
     key: "capture",
     about: "captures of networks: whole as in pieces of any cut",
     share: 2,
+    memory: USUAL_MEMORY,
     make: |random, seeds| [make::choices(random, CHOICES), make::capture(random, seeds)].concat(),
     run,
 };

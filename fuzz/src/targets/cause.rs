@@ -1,4 +1,4 @@
-use super::Target;
+use super::{Target, USUAL_MEMORY};
 use crate::{Input, make};
 use buslens::field::hex;
 use buslens::tool::{Options, Protocol, Verdict, decode};
@@ -8,6 +8,7 @@ pub static TARGET: Target = Target {
     key: "cause",
     about: "causes of failed checks: each would make the check right",
     share: 2,
+    memory: USUAL_MEMORY,
     make: |random, seeds| {
         let mut bytes = seeds.telegrams[random.below(seeds.telegrams.len())].clone();
         make::change(random, &mut bytes, seeds);

@@ -11,6 +11,8 @@ pub static TARGET: Target = Target {
     key: "form",
     about: "forms: any entries in any order, and the link to what comes of them",
     share: 3,
+    // Three bytes make a list of 256 items, each with a form of its own.
+    memory: 16 << 20,
     make: |random, seeds| {
         let mut data = make::choices(random, 6);
         let telegram = make::telegram(random, seeds);

@@ -1,5 +1,5 @@
-use super::Target;
 use super::law::assert_tiled;
+use super::{Target, USUAL_MEMORY};
 use crate::{Input, make};
 use buslens::field::{Direction, hex};
 use buslens::frame::Frame;
@@ -11,6 +11,7 @@ pub static TARGET: Target = Target {
     key: "frame",
     about: "bytes to value to bytes, and to form to bytes, in every protocol",
     share: 3,
+    memory: USUAL_MEMORY,
     make: |random, seeds| [make::choices(random, CHOICES), make::telegram(random, seeds)].concat(),
     run,
 };

@@ -65,6 +65,19 @@ pub fn assert_exports(report: &Report, index: usize) {
     assert_eq!(columns(&csv::telegram(report, index)), columns(&csv::head()));
 }
 
+/// A table and JSON Lines of a whole report of `all` telegrams: rows have equal columns, every line parses.
+pub fn assert_file(table: &str, lines: &str, all: usize) {
+    // Only what is quoted can hold an end of a line.
+    let mut rows = table.split_inclusive("\r\n").peekable();
+    assert!(rows.peek().is_some(), "a table has a head");
+    rows.for_each(|row| assert_eq!(columns(row), columns(&csv::head()), "{row}"));
+    assert_eq!(lines.lines().count(), all + 1);
+    for line in lines.lines() {
+        let read: Result<IgnoredAny, _> = serde_json::from_str(line);
+        assert!(read.is_ok(), "no JSON: {line}");
+    }
+}
+
 /// How many columns a row has.
 fn columns(row: &str) -> usize {
     let mut quoted = false;

@@ -1,4 +1,4 @@
-use super::Target;
+use super::{Target, USUAL_MEMORY};
 use crate::make;
 use buslens::field::hex;
 use buslens::tool::Editor;
@@ -9,6 +9,7 @@ pub static TARGET: Target = Target {
     key: "link",
     about: "links: there and back, and what is built by them",
     share: 1,
+    memory: USUAL_MEMORY,
     make: |random, seeds| {
         let mut link = make::words(random, "&");
         if random.one_in(2) {

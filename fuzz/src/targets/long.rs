@@ -1,6 +1,6 @@
 use std::time::{Duration, Instant};
 
-use super::Target;
+use super::{Target, USUAL_MEMORY};
 use crate::{Input, make};
 use buslens::tool::log::{Input as Kind, Log, Reading};
 use buslens::tool::{Options, decode, settings};
@@ -10,6 +10,7 @@ pub static TARGET: Target = Target {
     key: "long",
     about: "words repeated up to 64 kB, pasted, as a log and as settings: in linear time",
     share: 2,
+    memory: USUAL_MEMORY,
     make: |random, _| [make::choices(random, CHOICES), make::repeated(random)].concat(),
     run,
 };

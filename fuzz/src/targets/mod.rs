@@ -1,5 +1,6 @@
 //! The ways into the library, each with the laws that hold for whatever comes.
 
+mod block;
 mod capture;
 mod cause;
 mod form;
@@ -8,7 +9,10 @@ mod law;
 mod link;
 mod log;
 mod long;
+mod report;
+mod sentence;
 mod settings;
+mod setup;
 mod splitter;
 mod telegram;
 mod text;
@@ -23,11 +27,16 @@ pub struct Target {
     pub about: &'static str,
     /// Its share of the time, in parts.
     pub share: u32,
+    /// The most memory that little input may take.
+    pub memory: usize,
     /// Makes an input.
     pub make: fn(&mut Random, &Seeds) -> Vec<u8>,
     /// Panics where a law does not hold.
     pub run: fn(&[u8]),
 }
+
+/// A report of some hundred telegrams in as many short lines, with all that there is to say of them.
+const USUAL_MEMORY: usize = 3 << 20;
 
 /// All of them.
 pub static TARGETS: &[&Target] = &[
@@ -44,4 +53,8 @@ pub static TARGETS: &[&Target] = &[
     &long::TARGET,
     &cause::TARGET,
     &word::TARGET,
+    &sentence::TARGET,
+    &block::TARGET,
+    &report::TARGET,
+    &setup::TARGET,
 ];

@@ -1,4 +1,4 @@
-use super::Target;
+use super::{Target, USUAL_MEMORY};
 use crate::{Input, make};
 use buslens::tool::link::{keep_settings, kept_settings};
 use buslens::tool::settings::{changed, from_bytes, read, to_bytes, write};
@@ -8,6 +8,7 @@ pub static TARGET: Target = Target {
     key: "settings",
     about: "settings: text, bytes and links, there and back",
     share: 1,
+    memory: USUAL_MEMORY,
     make: |random, seeds| match random.below(3) {
         0 => [vec![0], make::telegram(random, seeds)].concat(),
         _ => [vec![1], make::words(random, "\n")].concat(),

@@ -1,6 +1,6 @@
 use std::sync::LazyLock;
 
-use super::Target;
+use super::{Target, USUAL_MEMORY};
 use crate::{Input, make};
 use buslens::field::hex;
 use buslens::frame::split::{Begins, Place, Splitter, Waiting};
@@ -12,6 +12,7 @@ pub static TARGET: Target = Target {
     key: "splitter",
     about: "what begins in a stream, for every beginning of it",
     share: 1,
+    memory: USUAL_MEMORY,
     make: |random, seeds| [make::choices(random, CHOICES), make::stream(random, seeds)].concat(),
     run,
 };

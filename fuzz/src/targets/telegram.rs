@@ -1,5 +1,5 @@
-use super::Target;
 use super::law::{assert_exports, assert_telegram};
+use super::{Target, USUAL_MEMORY};
 use crate::{Input, make};
 use buslens::field::hex;
 use buslens::tool::byte::{itself, shares};
@@ -10,6 +10,7 @@ pub static TARGET: Target = Target {
     key: "telegram",
     about: "telegrams and their beginnings with every device and protocol: details and exports",
     share: 3,
+    memory: USUAL_MEMORY,
     make: |random, seeds| [make::choices(random, CHOICES), make::telegram(random, seeds)].concat(),
     run,
 };

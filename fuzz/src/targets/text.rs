@@ -1,5 +1,5 @@
-use super::Target;
 use super::law::{assert_exports, assert_telegram};
+use super::{Target, USUAL_MEMORY};
 use crate::{Input, make};
 use buslens::tool::{annotated, decode};
 
@@ -8,6 +8,7 @@ pub static TARGET: Target = Target {
     key: "text",
     about: "pasted text: places within it, and the laws of telegrams for what is found",
     share: 3,
+    memory: USUAL_MEMORY,
     make: |random, seeds| [make::choices(random, CHOICES), make::text(random, seeds)].concat(),
     run,
 };

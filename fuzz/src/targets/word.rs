@@ -1,6 +1,6 @@
 use std::sync::LazyLock;
 
-use super::Target;
+use super::{Target, USUAL_MEMORY};
 use crate::{Input, make};
 use buslens::field::{Format, Spec, number_text};
 use buslens::tool::steps::{CHECKS, steps};
@@ -11,6 +11,7 @@ pub static TARGET: Target = Target {
     key: "word",
     about: "what is typed to find and to enter; checks step by step",
     share: 1,
+    memory: USUAL_MEMORY,
     make: |random, seeds| {
         let words = if random.one_in(2) { make::words(random, " ") } else { make::telegram(random, seeds) };
         [make::choices(random, CHOICES), words].concat()

@@ -54,7 +54,7 @@ pub fn FirstExamples() -> impl IntoView {
                 <button type="button" on:click=move |_| read.load(LOG.to_owned())>
                     <Icon glyph=Glyph::Search />
                     <strong>"A customer's log: what is wrong here?"</strong>
-                    <span>"A silent unit, damaged telegrams, slow answers: each with advice"</span>
+                    <span>"104 telegrams, a silent unit, damaged answers: each finding with its advice"</span>
                     <Icon glyph=Glyph::ChevronRight />
                 </button>
             </li>

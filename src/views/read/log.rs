@@ -142,6 +142,13 @@ impl LogState {
     pub fn start(self) {
         let hear = move |answer, beside| self.hear(answer, beside);
         self.client.set_value(Some(Client::new(Rc::new(hear))));
+        // Two tabs with the same log: each hears what is noted in the other.
+        storage::on_change(NOTES, move |kept| {
+            let key = self.key.get_untracked();
+            if let Some(notes) = kept.and_then(|kept| notes_of(&key, &kept)) {
+                self.notes.set(notes);
+            }
+        });
     }
 
     fn client(&self) -> Rc<Client> {
@@ -172,7 +179,8 @@ impl LogState {
             self.key.set(key.to_owned());
             self.filter.set(Filter::default());
             self.forget();
-            self.notes.set(kept_notes(key));
+            let kept = storage::kept(NOTES).unwrap_or_default();
+            self.notes.set(notes_of(key, &kept).unwrap_or_default());
         }
         self.options.set(how.options());
         self.stage.set(Stage::Reading { done: 0.0, of, telegrams: 0, since: Date::now() });
@@ -340,7 +348,7 @@ impl LogState {
                     many(overview.telegrams, "telegram"),
                     overview.headline
                 ));
-                self.overview.set(Some(Arc::new(overview)));
+                self.overview.set(Some(Arc::from(overview)));
                 self.stage.set(Stage::Ready);
             }
             Answer::Findings(findings) => {
@@ -416,14 +424,11 @@ impl LogState {
 }
 
 /// The notes on the log `key`, if it was the last one with notes.
-fn kept_notes(key: &str) -> BTreeMap<usize, String> {
-    let kept = storage::kept(NOTES).unwrap_or_default();
-    let Some(notes) = kept.strip_prefix(key).and_then(|rest| rest.strip_prefix('\n')) else {
-        return BTreeMap::new();
-    };
+fn notes_of(key: &str, kept: &str) -> Option<BTreeMap<usize, String>> {
+    let notes = kept.strip_prefix(key)?.strip_prefix('\n')?;
     let note = |line: &str| {
         let (number, text) = line.split_once('\t')?;
         Some((number.parse().ok()?, text.to_owned()))
     };
-    notes.lines().filter_map(note).collect()
+    Some(notes.lines().filter_map(note).collect())
 }

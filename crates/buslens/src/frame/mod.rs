@@ -114,6 +114,7 @@ pub struct Fit {
 
 /// What a check says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "json", derive(serde::Serialize, serde::Deserialize))]
 pub enum Verdict {
     Right,
     Wrong,

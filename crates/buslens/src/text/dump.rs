@@ -50,24 +50,12 @@ impl Dump {
     pub fn row(&self, line: &[u8]) -> Option<Row> {
         /// Offsets stand near the beginning.
         const FAR: usize = 80;
-        let mark = |c: &u8| matches!(c, b' ' | b'\t' | b'|' | b'>' | b'/' | b'#' | b'*' | b';' | b'-');
-        let first = line.iter().take_while(|c| mark(c)).count();
-        if let Some(row) = self.row_at(line, first, true) {
-            return Some(row);
-        }
-        let mut at = first;
-        while at < line.len().min(FAR) {
-            let before = at;
-            at += line[at..].iter().take_while(|c| !mark(c)).count();
-            at += line[at..].iter().take_while(|c| mark(c)).count();
-            if at == before {
-                break;
-            }
-            if let Some(row) = line.get(at).and_then(|_| self.row_at(line, at, false)) {
-                return Some(row);
-            }
-        }
-        None
+        let first = line.iter().take_while(|c| MARKS[usize::from(**c)]).count();
+        let near = &line[..line.len().min(FAR)];
+        let begins = |at: &usize| MARKS[usize::from(near[at - 1])] && begins_offset(&line[*at..]);
+        let others = (first + 1..near.len()).filter(begins);
+        let alone = begins_offset(&line[first..]).then(|| self.row_at(line, first, true)).flatten();
+        alone.or_else(|| others.into_iter().find_map(|at| self.row_at(line, at, false)))
     }
 
     /// The same with the offset at `start`; where other things are before it, it must be marked and fit.
@@ -77,8 +65,9 @@ impl Dump {
         // tcpdump marks its offsets.
         let start = start + if line[start..].starts_with(b"0x") { 2 } else { 0 };
         let count = line[start..].iter().take_while(|c| c.is_ascii_hexdigit()).count();
-        let digits =
-            std::str::from_utf8(&line[start..start + count]).ok().filter(|_| (4..=16).contains(&count))?;
+        if !(4..=16).contains(&count) {
+            return None;
+        }
         let end = start + count;
         let blanks = |at: usize| {
             line.get(at..).unwrap_or_default().iter().take_while(|c| matches!(c, b' ' | b'\t')).count()
@@ -94,6 +83,7 @@ impl Dump {
             return None;
         }
         // Most dumps count in hex, od in octal.
+        let digits = std::str::from_utf8(&line[start..end]).ok()?;
         let values = [16, 10, 8].map(|radix| usize::from_str_radix(digits, radix).ok());
         let offset = values[0]?;
         let first = &line[from + blanks(from)..];
@@ -167,6 +157,23 @@ impl Dump {
             _ => Some(Sender::Other),
         }
     }
+}
+
+/// What can stand right before an offset.
+static MARKS: [bool; 256] = {
+    let mut marks = [false; 256];
+    let mut at = 0;
+    while at < b" \t|>/#*;-".len() {
+        marks[b" \t|>/#*;-"[at] as usize] = true;
+        at += 1;
+    }
+    marks
+};
+
+/// Whether a text may begin with an offset: all have four digits.
+fn begins_offset(text: &[u8]) -> bool {
+    let digits = text.strip_prefix(b"0x").unwrap_or(text);
+    digits.first_chunk::<4>().is_some_and(|digits| digits.iter().all(u8::is_ascii_hexdigit))
 }
 
 /// A number for what stands before an offset: the same for the same letters and blanks, whatever digits are among

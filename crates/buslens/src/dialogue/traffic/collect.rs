@@ -81,6 +81,8 @@ pub struct Traffic {
     /// The line of the last piece of a text, its bytes, and who sent them: what is written twice in a line is
     /// one telegram.
     pub(super) latest_piece: (u32, Vec<u8>, Hint),
+    /// How many bytes the columns of a text had.
+    pub(super) in_columns: usize,
     /// What other protocols were seen, by their place in [`FOREIGN`](crate::dialogue::foreign::FOREIGN).
     pub(super) foreign_protocols: [u32; crate::dialogue::foreign::FOREIGN.len()],
 }
@@ -174,6 +176,7 @@ impl Traffic {
             passed: Vec::new(),
             gone: Vec::new(),
             latest_piece: (0, Vec::new(), Hint::None),
+            in_columns: 0,
             foreign_protocols: [0; crate::dialogue::foreign::FOREIGN.len()],
         }
     }

@@ -441,15 +441,21 @@ impl Traffic {
         } else if one.awaited && !self.is_awaited(one, gone) {
             bits -= CONVERSATION;
         }
-        bits >= threshold
+        let of_columns = if facts.column { evidence::threshold(self.in_columns) } else { 0 };
+        bits >= threshold.max(of_columns)
     }
 
     /// Whether an entry answers one of those just before it, or is answered by one just behind.
     fn is_in_conversation(&self, one: &Weak, own: &[u8], gone: &HashSet<u32>) -> bool {
         let index = one.entry as usize;
         let entry = &self.entries[index];
+        // Columns meet those beside them; the same one may be among them twice.
+        let beside = |other: &Entry| {
+            !one.facts.column || (other.line == entry.line && bytes(other, &self.data) != own)
+        };
         let near = |other: &&(u32, &Entry)| {
-            !gone.contains(&other.0) && other.1.port == entry.port && other.1.role != Role::Discarded
+            let same_port = other.1.port == entry.port;
+            !gone.contains(&other.0) && same_port && other.1.role != Role::Discarded && beside(other.1)
         };
         let before = self.numbered(index.saturating_sub(NEAR), index);
         let behind = self.numbered(index + 1, index + 1 + NEAR);
@@ -515,6 +521,10 @@ impl Traffic {
         }
         if request.protocol().is(&modbus_tcp::PROTOCOL) && response.protocol().is(&modbus_tcp::PROTOCOL) {
             return bytes(request, &self.data)[..2] == bytes(response, &self.data)[..2];
+        }
+        // The answer to a write of one value repeats it.
+        if matches!(function, 5 | 6 | 22) && !cut && response.verdict != Verdict::Wrong {
+            return asked == answer;
         }
         match self.splitter.answer_length(asked) {
             Some(length) if cut => {

@@ -115,7 +115,8 @@ impl Traffic {
             self.entries[known..].iter().map(|entry| (entry.at, entry.length)).collect();
         for reading in [bytes, decimal] {
             let mut found = Vec::new();
-            if !self.whole(index, reading, false, &mut found) {
+            let whole = self.whole(index, reading, false, &mut found);
+            if !whole {
                 self.inside(index, reading, &mut found);
             }
             let seen = |(from, to, ..): &Found| {
@@ -124,6 +125,13 @@ impl Traffic {
                     self.data.get(at..at + usize::from(*length)) == Some(&reading[*from..*to])
                 })
             };
+            // The longer the columns are, the more is found in them by chance.
+            self.in_columns += reading.len();
+            let threshold = evidence::threshold(self.in_columns);
+            found.retain(|(from, to, protocol, _)| {
+                whole && row.facts.marked
+                    || evidence::proof(protocol, &reading[*from..*to], &self.splitter) >= threshold
+            });
             let any = !found.is_empty();
             found.retain(|telegram| !seen(telegram));
             self.take_found(index, reading, 0, &found);

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{Log, Source, State};
 use crate::dialogue::{Certainty, Choice, Guess};
 use crate::field::{Direction, Span};
-use crate::frame::{PROTOCOLS, Protocol};
+use crate::frame::{PROTOCOLS, Protocol, Verdict};
 use crate::message;
 use crate::text::Line;
 use crate::tool::decode::{Options, Report, Telegram};
@@ -36,6 +36,8 @@ struct Neighbour {
     bytes: Vec<u8>,
     colon: bool,
     protocol: String,
+    /// Not what the bytes alone say: one that was printed without its check has none.
+    verdict: Verdict,
     reason_of_protocol: String,
     direction: Direction,
     certain: bool,
@@ -94,6 +96,7 @@ impl Neighbour {
             bytes: telegram.line.bytes.clone(),
             colon: telegram.line.colon,
             protocol: telegram.choice.protocol.key.to_owned(),
+            verdict: telegram.verdict,
             reason_of_protocol: telegram.choice.reason.to_string(),
             direction: telegram.guess.direction,
             certain: telegram.guess.certainty == Certainty::Certain,
@@ -112,7 +115,7 @@ impl Neighbour {
         let certainty = if self.certain { Certainty::Certain } else { Certainty::Likely };
         Telegram {
             number: self.number,
-            verdict: (protocol.verdict)(&self.bytes),
+            verdict: self.verdict,
             line: Line { number: self.line, bytes: self.bytes.clone(), colon: self.colon, ..Line::default() },
             choice: Choice {
                 protocol,
@@ -140,7 +143,9 @@ impl Excerpt {
     /// The telegrams, to be read as `options` say.
     pub fn report(&self, options: &Options) -> Report {
         let settings = kept_settings(&self.settings);
-        let options = Options { settings, ..options.clone() };
+        let mut options = Options { settings, ..options.clone() };
+        // What links hold is what a person set up; the rest is the device's.
+        options.take_device();
         Report::of(self.telegrams.iter().map(Neighbour::telegram).collect(), options)
     }
 }
@@ -152,17 +157,32 @@ mod tests {
 
     #[test]
     fn a_telegram_says_the_same_elsewhere() {
-        let text =
-            "10:00:00.000 TX 01 03 00 C8 00 03 84 35\n10:00:00.030 RX 01 03 06 00 80 42 A4 F1 DE B0 F8\n";
-        let options = Options { device: crate::tool::Profile::of("memograph-rsg45"), ..Options::default() };
-        let log = Log::read(text.as_bytes(), &Reading::default(), options.clone()).unwrap();
-        for index in 0..log.entries().len() {
-            let (report, place) = log.report_of(&text.as_bytes(), index);
-            let excerpt = log.excerpt(&text.as_bytes(), index);
-            let again = excerpt.report(&options);
-            assert_eq!(report.detail(place), again.detail(excerpt.place));
-            assert!(excerpt.places.len() == report.telegrams[place].line.bytes.len());
-            assert!(text.contains(&excerpt.text) && !excerpt.text.is_empty());
+        for (device, text) in [
+            (
+                "memograph-rsg45",
+                "10:00:00.000 TX 01 03 00 C8 00 03 84 35\n10:00:00.030 RX 01 03 06 00 80 42 A4 F1 DE B0 F8\n",
+            ),
+            // Requests that were printed without their checksums.
+            (
+                "memograph-rsg45",
+                ">>> request  01 03 00 c8 00 03\n<<< response 01 03 06 00 80 41 40 00 00 35 43\n\
+                 >>> request  01 06 20 64 00 05\n<<< response 01 06 20 64 00 05 03 d6\n",
+            ),
+            // The ident number of another device.
+            ("keb-f5-profibus", "TX 68 0C 0C 68 81 82 5D 3D 3E 88 01 0A 0B 05 EC 00 6A 16\nRX E5\n"),
+        ] {
+            let options = Options { device: crate::tool::Profile::of(device), ..Options::default() };
+            let log = Log::read(text.as_bytes(), &Reading::default(), options.clone()).unwrap();
+            assert!(log.entries().len() >= 2);
+            for index in 0..log.entries().len() {
+                let (report, place) = log.report_of(&text.as_bytes(), index);
+                let excerpt = log.excerpt(&text.as_bytes(), index);
+                let again = excerpt.report(&options);
+                assert_eq!(again.telegrams[excerpt.place].verdict, log.entries()[index].verdict);
+                assert_eq!(report.detail(place), again.detail(excerpt.place));
+                assert!(excerpt.places.len() == report.telegrams[place].line.bytes.len());
+                assert!(text.contains(&excerpt.text) && !excerpt.text.is_empty());
+            }
         }
     }
 }
