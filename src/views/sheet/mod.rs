@@ -68,7 +68,7 @@ pub fn Sheet() -> impl IntoView {
             read.log.ask(Request::Digest);
         }
     });
-    let digest = Signal::derive(move || {
+    let digest = Memo::new(move |_| {
         let digest = match is_log.get() {
             true => (*read.log.digest.get()?).clone(),
             false => report.with(|report| report.digest()),
@@ -125,7 +125,7 @@ pub fn Sheet() -> impl IntoView {
                 </div>
             </section>
             <Summary open=summary digest />
-            <Paper report digest is_log=is_log.into() title=state.title spelled_out />
+            <Paper report digest=digest.into() is_log=is_log.into() title=state.title spelled_out />
         </div>
     }
 }
