@@ -302,10 +302,10 @@ fn sentences() {
         "00",
         "F5 13 E5 D3",
     ] {
-        texts.push(("profibus-check-config", cut.to_owned()));
+        texts.push(("profibus-chk-cfg", cut.to_owned()));
     }
     for (protocol, text) in texts {
-        let protocol = Protocol::of(protocol).or_else(|| Protocol::of("profibus-fdl"));
+        let protocol = Some(Protocol::of(protocol).expect(protocol));
         for device in [None, Profile::of("keb-f5-profibus")] {
             let report = decode(&text, Options { protocol, device, ..Options::default() });
             for index in 0..report.telegrams.len() {
@@ -328,7 +328,6 @@ fn addresses() {
     let mut table = String::new();
     for profile in PROFILES {
         for name in [
-            "",
             "universal channel",
             "Universal channel 6",
             "universal channel 40",
@@ -352,14 +351,13 @@ fn addresses() {
                 profile.addresses(name).iter().map(|(from, to)| format!("{from}-{to}")).collect();
             writeln!(table, "{} | {name} | {}", profile.key, found.join(", ")).unwrap();
         }
-        for display in profile.display {
-            for digit in ["x", "0", "9", "A", "-"] {
-                let text = display.text.replace(['x', 'X'], digit);
-                for text in [text.clone(), text.to_lowercase(), format!("{text}0"), format!(" {text}")] {
-                    let shown = profile.shown(&text).map(|it| it.text);
-                    writeln!(table, "{} | {text} | {shown:?}", profile.key).unwrap();
-                }
-            }
+        // What a display shows in place of an X is a digit.
+        for text in [
+            "Error", "ERROR", "o Flo", "E.bcc", "E_Bc", "E xx", "E 1A", "E 1-", "E 1", "E 123", "EEEP3",
+            "eeepr", "EEEP", "EEEP33", "F 12", "x",
+        ] {
+            let shown = profile.shown(text).map_or("nothing", |it| it.text);
+            writeln!(table, "{} | display {text} | {shown}", profile.key).unwrap();
         }
     }
     assert_table("addresses", &table);
