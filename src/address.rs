@@ -97,7 +97,8 @@ impl NoLink {
         match self {
             Self::Nothing => "There is nothing to link to yet.",
             Self::File => {
-                "A link cannot hold a file: send the file itself, or save a part of it as text and paste that."
+                "A file is too long for a link: send the file itself, or paste only the lines that matter and copy \
+                 a link to those."
             }
             Self::TooLong => {
                 "This is too long for a link, even compressed: mail programs and chats cut links of more than 30,000 \

@@ -13,12 +13,13 @@ use leptos::task::spawn_local;
 use leptos::wasm_split::{SplitLoaderError, wasm_split};
 
 use crate::address::View;
+use crate::components::byte_strip::Lights;
 use crate::components::causes::Causes;
 use crate::components::telegram::Shown;
 use crate::views::build::{Build, BuildState};
 use crate::views::check::{Check, CheckState};
 use crate::views::devices::Devices;
-use crate::views::read::{LogView, Pictures, ReadState};
+use crate::views::read::{Beside, LogView, More, Pictures, ProposedDevice, ReadState};
 use crate::views::sheet::Sheet;
 use buslens::tool::json;
 use buslens::tool::link::Link;
@@ -28,21 +29,26 @@ use buslens::tool::link::Link;
 pub enum Part {
     /// Build, Check, Devices, Sheet, and what they have in common.
     Views,
-    /// What reads logs and shows them, and what tells why a telegram is damaged.
+    /// What reads logs and shows them, and what there is to say beside a telegram and its fields.
     Log,
 }
 
 /// What the later parts draw.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub enum Piece {
     Build,
     Check,
     Devices,
     Sheet,
     Log,
-    Causes(Shown),
     /// What comes of telegrams and logs, beside the input that is empty.
     Pictures,
+    Causes(Shown),
+    /// What is folded below a telegram.
+    More(Shown, Lights),
+    ProposedDevice,
+    /// What the text tells beside its telegrams, or in their place.
+    Beside,
 }
 
 impl Piece {
@@ -50,8 +56,13 @@ impl Piece {
     const fn part(&self) -> Part {
         match self {
             Self::Build | Self::Check | Self::Devices | Self::Sheet => Part::Views,
-            Self::Log | Self::Causes(_) | Self::Pictures => Part::Log,
+            _ => Part::Log,
         }
+    }
+
+    /// Whether it is all that is asked for, and not something beside that.
+    const fn is_view(&self) -> bool {
+        matches!(self, Self::Build | Self::Check | Self::Devices | Self::Sheet | Self::Log)
     }
 }
 
@@ -80,7 +91,7 @@ fn views() -> Result<Content, NotLoaded> {
             Piece::Check => view! { <Check /> }.into_any(),
             Piece::Devices => view! { <Devices /> }.into_any(),
             Piece::Sheet => view! { <Sheet /> }.into_any(),
-            Piece::Log | Piece::Causes(_) | Piece::Pictures => ().into_any(),
+            _ => ().into_any(),
         }
     }
     Ok(Content { start, draw })
@@ -95,6 +106,9 @@ fn log() -> Result<Content, NotLoaded> {
                 let on_use = Callback::new(move |bytes| read.correct(bytes));
                 view! { <Causes shown on_use /> }.into_any()
             }
+            Piece::More(shown, lights) => view! { <More shown lights /> }.into_any(),
+            Piece::ProposedDevice => view! { <ProposedDevice /> }.into_any(),
+            Piece::Beside => view! { <Beside /> }.into_any(),
             Piece::Pictures => view! { <Pictures /> }.into_any(),
             _ => view! { <LogView /> }.into_any(),
         }
@@ -160,6 +174,9 @@ impl Linked for CheckState {
     }
 }
 
+/// What views are about, as far as they were made.
+type States = Vec<(View, Box<dyn Linked>)>;
+
 /// The later parts, as far as they are there.
 #[derive(Clone, Copy)]
 pub struct Later {
@@ -167,7 +184,7 @@ pub struct Later {
     log: RwSignal<Stage, LocalStorage>,
     /// Owns what the parts make.
     app: StoredValue<Owner>,
-    states: StoredValue<Vec<(View, Box<dyn Linked>)>, LocalStorage>,
+    states: StoredValue<States, LocalStorage>,
     /// What views are to show once they are there.
     waiting: StoredValue<Vec<(View, Link)>, LocalStorage>,
 }
@@ -266,12 +283,15 @@ impl Later {
 pub fn LaterPiece(piece: Piece) -> impl IntoView {
     let later = expect_context::<Later>();
     let part = piece.part();
-    later.load(part);
+    // What stands beside a view comes and goes with each keystroke: it does not ask again by itself.
+    if piece.is_view() || matches!(later.stage(part).get_untracked(), Stage::Not) {
+        later.load(part);
+    }
     move || {
         match later.stage(part).get() {
         Stage::There(content) => (content.draw)(piece.clone()),
-        // What only decorates is not waited for.
-        _ if matches!(piece, Piece::Pictures) => ().into_any(),
+        // Nor is it waited for.
+        _ if !piece.is_view() => ().into_any(),
         Stage::Not | Stage::Loading => {
             view! { <p class="coming" role="status">"One moment"</p> }.into_any()
         }

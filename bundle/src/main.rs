@@ -168,7 +168,7 @@ fn stylesheet(template: &str) -> Result<String, String> {
         style.push('\n');
     }
     style.push_str(page::NOTE_STYLE);
-    Ok(style)
+    Ok(page::without_comments(&style))
 }
 
 /// The one file that the template links to as `rel`.

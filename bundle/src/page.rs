@@ -92,7 +92,7 @@ pub fn html(template: &str, edition: &Edition, links: &Links) -> Result<String, 
             integrity(&style.content)
         ),
         format!(r#"<link rel="icon" href="./{}" type="image/svg+xml">"#, icon.name),
-        format!(r#"<link rel="manifest" href="./{}">"#, manifest.name),
+        format!(r#"<link rel="manifest" href="./{}" crossorigin="use-credentials">"#, manifest.name),
         format!(
             r#"<script type="module" src="./{}" integrity="{}"></script>"#,
             boot.name,
@@ -127,6 +127,19 @@ pub fn document(
     let head = format!("  {}\n  </head>", head.join("\n    "));
     let with_links = replace_once(&with_policy, "</head>", &head)?;
     replace_once(&with_links, "<body>", &format!("<body>\n    {body}"))
+}
+
+/// A stylesheet without its comments and indents, which nobody reads in a browser.
+pub fn without_comments(style: &str) -> String {
+    let mut kept = String::with_capacity(style.len());
+    let mut rest = style;
+    while let Some((before, comment)) = rest.split_once("/*") {
+        kept.push_str(before);
+        rest = comment.split_once("*/").map_or("", |(_, after)| after);
+    }
+    kept.push_str(rest);
+    let lines = kept.lines().map(str::trim).filter(|line| !line.is_empty());
+    lines.flat_map(|line| [line, "\n"]).collect()
 }
 
 /// Replaces the only place where `text` has `from`. A template in which it is missing, or stands
@@ -195,6 +208,14 @@ mod tests {
         assert_eq!(linked(TEMPLATE, "stylesheet"), ["style/a.css", "style/b.css"]);
         let html = page(TEMPLATE).unwrap();
         assert_eq!(linked(&html, "stylesheet"), ["./page-1.css"]);
+    }
+
+    #[test]
+    fn comments_and_indents_of_a_stylesheet_are_left_out() {
+        let style =
+            "/* One. */\n@layer a {\n  .b > c { color: red; } /* two\n  lines */\n\n  d { e: f; }\n}\n";
+        assert_eq!(without_comments(style), "@layer a {\n.b > c { color: red; }\nd { e: f; }\n}\n");
+        assert_eq!(without_comments("a {}\n/* open"), "a {}\n");
     }
 
     #[test]

@@ -101,7 +101,7 @@ async fn a_long_text_is_compressed_and_a_longer_one_is_refused() -> Result {
     let link = page.fragment().await?;
     assert!(link.starts_with("#/read?z=") && link.len() < 3 * log.len() / 4, "{} characters", link.len());
     page.click("[aria-label='Copy link']").await?;
-    page.until("[role=status]", "The link is copied").await?;
+    page.until("[role=status]", "Link copied").await?;
     assert!(page.clipboard().await?.ends_with(&link));
     page.driver.execute("localStorage.clear()", vec![]).await?;
     page.go(&link).await?;

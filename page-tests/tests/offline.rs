@@ -11,6 +11,9 @@ use thirtyfour::prelude::*;
 const PAIR: &str = "01 03 00 C8 00 03 84 35\n01 03 06 00 80 42 F6 E9 79 5A 93";
 const SAID: &str = "Unit 1 answers";
 
+/// The field of Check.
+const BYTES: &str = "Bytes to check, in hex";
+
 /// Once the browser keeps the page.
 const KEPT: &str = "html[data-kept]";
 
@@ -57,6 +60,13 @@ async fn loaded(page: &Page) -> Result<Vec<String>> {
 /// The caches of all versions.
 async fn caches(page: &Page) -> Result<Vec<String>> {
     let script = "caches.keys().then((names) => arguments[0](names))";
+    page.driver.execute_async(script, vec![]).await?.convert()
+}
+
+/// How many files the browser keeps.
+async fn kept_files(page: &Page) -> Result<usize> {
+    let script = "const done = arguments[0]; caches.keys().then(async ([name]) => \
+                  done(name ? (await (await caches.open(name)).keys()).length : 0))";
     page.driver.execute_async(script, vec![]).await?.convert()
 }
 
@@ -109,6 +119,21 @@ async fn without_a_server_the_page_comes_back() -> Result {
     for path in site.asked() {
         assert!(path == "/tools/buslens/" || names.contains(&path), "{path}");
     }
+
+    // What somebody clears away is there again at the next visit.
+    let whole = kept_files(&page).await?;
+    page.driver
+        .execute_async("caches.keys().then(([name]) => caches.delete(name)).then(arguments[0])", vec![])
+        .await?;
+    page.driver.refresh().await?;
+    page.wait_for(KEPT).await?;
+    for _ in 0..200 {
+        tokio::time::sleep(Duration::from_millis(50)).await;
+        if kept_files(&page).await? == whole {
+            break;
+        }
+    }
+    assert!(whole > 8 && kept_files(&page).await? == whole, "{whole} files");
 
     site.stop();
     page.driver.refresh().await?;
@@ -182,17 +207,21 @@ async fn a_new_version_is_offered_once() -> Result {
     page.until(".foot", "A new version is here.").await?;
     assert_eq!(page.accessibility().await?, [""; 0]);
     // Who does not take it goes on with the version that is open: its files are not on the server any more.
-    page.view("build").await?;
-    page.fill("main input", "read channel 1").await?;
+    page.view("check").await?;
+    page.fill_in(BYTES, "02 03 00 C8 00 05").await?;
     page.view("read").await?;
     read_log(&page, &log).await?;
     assert!(is_of(&old, &loaded(&page).await?), "{:?}", loaded(&page).await?);
     page.paste(PAIR).await?;
     page.fill(".editor textarea", &format!("{PAIR}\n01 03")).await?;
+    // Another tab has something else in Check, and what is kept for all tabs is what was typed last.
+    page.driver.execute("localStorage.setItem('buslens.check', 'text=FF')", vec![]).await?;
     // At once, before the address has followed.
     page.click(".foot span button").await?;
     page.until(".foot > button", &version(&new)).await?;
     assert_eq!(page.input().await?, format!("{PAIR}\n01 03"));
+    page.view("check").await?;
+    assert_eq!(page.holds(BYTES).await?, "02 03 00 C8 00 05");
     use_all_of_it(&page, &log).await?;
     assert!(is_of(&new, &loaded(&page).await?), "{:?}", loaded(&page).await?);
     only_kept(&page, &site.address(""), &version(&new)).await?;
@@ -372,7 +401,7 @@ async fn the_page_as_one_file_opens_from_a_disk() -> Result {
     page.until(".lead h2", SAID).await?;
     page.view("build").await?;
     page.fill("main input", "write 123.456 good to channel 6").await?;
-    page.until("main", "number 6, value 123.456").await?;
+    page.until("main", "Write Universal channel 6 = 123.456, good").await?;
     use_all_of_it(&page, &log).await?;
     assert_eq!(page.value("return workers").await?, json!(1), "the log is read by the worker");
     assert_eq!(page.value("return violations").await?, json!([]));

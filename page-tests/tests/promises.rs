@@ -308,7 +308,8 @@ async fn storage_denied_or_full_breaks_no_view() -> Result {
     let folder = tempfile::tempdir()?;
     let log = folder.path().join("plant.log");
     std::fs::write(&log, "TX 01 03 00 C8 00 03 84 35\n".repeat(4000))?;
-    for script in [denied("localStorage") + &denied("indexedDB"), full.to_owned(), nothing.to_owned()] {
+    for script in [denied("localStorage") + denied("indexedDB").as_str(), full.to_owned(), nothing.to_owned()]
+    {
         let page = Page::open_at("#/read", DESKTOP, false).await?;
         page.before_loading(&script).await?;
         for view in VIEWS {

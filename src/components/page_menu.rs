@@ -35,7 +35,8 @@ pub fn PageMenu() -> impl IntoView {
 
 /// What the deed is called.
 pub fn label(one_file: &OneFile) -> String {
-    format!("Save the page as one file ({:.1} MB)", one_file.bytes as f64 / 1e6)
+    let tenths = one_file.bytes.div_ceil(100_000);
+    format!("Save the page as one file ({}.{} MB)", tenths / 10, tenths % 10)
 }
 
 /// Gives the page as one file to the person to keep.

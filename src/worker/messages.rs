@@ -212,7 +212,7 @@ pub enum Answer {
     /// Why nobody reads it any more; it can be opened again. The worker itself cannot say that.
     Lost(String),
     /// The file is read.
-    Ready(Overview),
+    Ready(Box<Overview>),
     Findings(Vec<Found>),
     /// The devices that units look like, and what lines tell that hold no telegram.
     Beside {

@@ -38,7 +38,7 @@ impl<S: Source> Reader<S> {
             evidence: finding.evidence.clone(),
         };
         vec![
-            Answer::Ready(self.log.overview()),
+            Answer::Ready(Box::new(self.log.overview())),
             Answer::Findings(self.findings.iter().map(found).collect()),
             Answer::Beside {
                 proposals: self.log.proposals(&self.source).iter().map(Proposed::of).collect(),

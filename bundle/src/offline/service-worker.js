@@ -59,7 +59,7 @@ async function begin() {
   }
 }
 
-/** Removes other versions, but those that an open page is of. */
+/** Removes other versions, but those that an open page is of; and takes again what is missing of this one. */
 async function tidy() {
   // One that is on its way fills its cache, and then has the say.
   const coming = [registration.installing, registration.waiting].some((it) => it && it !== self.serviceWorker);
@@ -69,6 +69,9 @@ async function tidy() {
   const used = [CACHE, ...locks.map((lock) => lock.name)];
   const others = (await caches.keys()).filter((name) => name.startsWith(OWN) && !used.includes(name));
   await Promise.all(others.map((name) => caches.delete(name)));
+  // A browser that is short of room, or a person, may have cleared the cache alone.
+  const kept = await (await caches.open(CACHE)).keys();
+  if (kept.length < Object.keys(FILES).length) await fill().catch(() => {});
 }
 
 async function page(request) {

@@ -348,7 +348,7 @@ impl LogState {
                     many(overview.telegrams, "telegram"),
                     overview.headline
                 ));
-                self.overview.set(Some(Arc::new(overview)));
+                self.overview.set(Some(Arc::from(overview)));
                 self.stage.set(Stage::Ready);
             }
             Answer::Findings(findings) => {

@@ -21,13 +21,15 @@ use crate::later::{CouldNotLoad, Later, LaterPiece, Part, Piece};
 use editor::Editor;
 use examples::Examples;
 use open_file::OpenFile;
-use reading::{Beside, ProposedDevice, ReadAs, ReadingChoices};
+use reading::{ReadAs, ReadingChoices};
 use start::{Start, Welcome};
 use telegrams::Telegrams;
 
 pub use log_view::LogView;
 pub use pictures::Pictures;
+pub use reading::{Beside, ProposedDevice};
 pub use state::{Mode, ReadState};
+pub use telegrams::More;
 
 #[component]
 pub fn Read() -> impl IntoView {
@@ -61,7 +63,7 @@ pub fn Read() -> impl IntoView {
             </Show>
             <Show when=move || read.mode() == Mode::Telegrams && later.has_failed(Part::Log)>
                 <CouldNotLoad part=Part::Log>
-                    "What reads logs could not be loaded: check the connection. Telegrams can be read one by one."
+                    "A part of Buslens could not be loaded: check the connection. Telegrams can be read one by one, without possible causes and proposals."
                 </CouldNotLoad>
             </Show>
             {below}
@@ -75,7 +77,7 @@ fn Nothing() -> impl IntoView {
     view! {
         <section class="no-telegram">
             <h2>"There is no telegram in this text."</h2>
-            <Beside />
+            <LaterPiece piece=Piece::Beside />
             <p>
                 "Buslens looked for bytes in hex (01 03 00 C8 00 03 84 35, 0103, 0x01, \\x01 …) or decimal, with or without times and words around them, and took for a telegram only what has enough speaking for it."
             </p>
@@ -93,12 +95,14 @@ fn Input() -> impl IntoView {
     view! {
         <section class="input-bar" aria-label="Input">
             <Editor />
-            <Show when=move || !read.report().telegrams.is_empty()>
-                <Beside />
+            <Show when=move || read.mode() == Mode::Telegrams && !read.report().telegrams.is_empty()>
+                <LaterPiece piece=Piece::Beside />
             </Show>
             <div class="input-tools">
                 <ReadAs />
-                <ProposedDevice />
+                <Show when=move || read.mode() == Mode::Telegrams>
+                    <LaterPiece piece=Piece::ProposedDevice />
+                </Show>
                 <ReadingChoices />
                 <div class="acts">
                     <Examples />

@@ -5,7 +5,7 @@ use leptos::prelude::*;
 use super::ReadState;
 use super::state::Mode;
 use buslens::field::{Direction, count, grouped, many};
-use buslens::tool::log::Seen;
+use buslens::tool::log::{Seen, seen};
 use buslens::tool::{PROFILES, PROTOCOLS, Report, proposals};
 
 /// The line that says how the text was read.
@@ -67,7 +67,7 @@ pub fn ReadAs() -> impl IntoView {
 #[component]
 pub fn Beside() -> impl IntoView {
     let read = expect_context::<ReadState>();
-    let seen = Memo::new(move |_| read.report().seen.clone());
+    let seen = Memo::new(move |_| read.with_settled(|text| seen(text, read.options())));
     view! {
         <Show when=move || seen.with(|seen| !seen.is_empty())>
             <SeenList seen=seen.get() />
@@ -107,9 +107,6 @@ pub fn SeenList(seen: Vec<Seen>) -> impl IntoView {
 pub fn ProposedDevice() -> impl IntoView {
     let read = expect_context::<ReadState>();
     let proposed = Memo::new(move |_| {
-        if read.mode() != Mode::Telegrams {
-            return None;
-        }
         let best = proposals(&read.report()).into_iter().max_by_key(|proposal| proposal.bits)?;
         Some((best.device.key, best.text.sentence()))
     });

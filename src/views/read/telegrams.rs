@@ -50,7 +50,7 @@ pub fn Telegrams() -> impl IntoView {
                         {move || read.shown().map(|shown| view! { <LaterPiece piece=Piece::Causes(shown) /> })}
                     </Show>
                     <FieldTable rows lights label="Fields" />
-                    {move || read.shown().map(|shown| view! { <More shown lights /> })}
+                    {move || read.shown().map(|shown| view! { <LaterPiece piece=Piece::More(shown, lights) /> })}
                 </section>
                 <section class="rail" aria-label="Checksum and chosen byte">
                     {move || {
@@ -142,7 +142,7 @@ pub fn Kind(shown: Shown) -> impl IntoView {
 
 /// What is there for those who want to know more.
 #[component]
-fn More(shown: Shown, lights: Lights) -> impl IntoView {
+pub fn More(shown: Shown, lights: Lights) -> impl IntoView {
     let (note, source) = (shown.detail.note, shown.detail.source);
     let layout = shown.report.layout(shown.index);
     let has_registers = shown.detail.registers.is_some();

@@ -1,4 +1,4 @@
-use super::log::{Seen, State};
+use super::log::State;
 use crate::device::{self, Profile};
 use crate::dialogue::{Certainty, Choice, Guess};
 use crate::field::{self, Argument, Direction, Severity, Span};
@@ -75,8 +75,6 @@ pub struct Report {
     pub telegrams: Vec<Telegram>,
     /// Lines without a single byte, with what is wrong with them.
     pub not_understood: Vec<Line>,
-    /// What lines tell that hold no telegram.
-    pub seen: Vec<Seen>,
     /// How the bytes were written.
     pub style: Option<Style>,
     /// How many lines the text has, empty ones included.

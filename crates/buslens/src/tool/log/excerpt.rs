@@ -171,8 +171,7 @@ mod tests {
             // The ident number of another device.
             ("keb-f5-profibus", "TX 68 0C 0C 68 81 82 5D 3D 3E 88 01 0A 0B 05 EC 00 6A 16\nRX E5\n"),
         ] {
-            let options =
-                Options { device: crate::tool::Profile::of("memograph-rsg45"), ..Options::default() };
+            let options = Options { device: crate::tool::Profile::of(device), ..Options::default() };
             let log = Log::read(text.as_bytes(), &Reading::default(), options.clone()).unwrap();
             assert!(log.entries().len() >= 2);
             for index in 0..log.entries().len() {

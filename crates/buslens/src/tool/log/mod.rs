@@ -35,7 +35,7 @@ pub use list::{Overview, Row, State, Unit, brief};
 pub use pictures::{Bucket, Held, Point, Timeline};
 #[cfg(feature = "captures")]
 pub use redact::{Hidden, Kind, Redacted, Replaced};
-pub use seen::Seen;
+pub use seen::{Seen, seen};
 pub use story::time_text;
 
 use std::collections::HashMap;

@@ -156,7 +156,9 @@ impl Log {
         let mut blocks = detail.device.blocks.iter();
         let known =
             blocks.find(|block| (block.from..=block.to).contains(&address)).and_then(|block| block.value());
-        let number = known.and_then(|text| text.to_string().replace('\u{2212}', "-").parse::<f64>().ok());
+        let number = known.and_then(|text| {
+            lexical_core::parse::<f64>(text.to_string().replace('\u{2212}', "-").as_bytes()).ok()
+        });
         let raw = || {
             let at = usize::from(address.checked_sub(detail.start?)?);
             detail.values.get(at).map(|value| f64::from(*value))

@@ -117,7 +117,6 @@ impl Log {
             _ => None,
         };
         report.line_count = self.lines as usize;
-        report.seen = self.seen(&text.as_bytes());
         /// Nobody reads more of them.
         const MOST_LINES: usize = 10_000;
         const MOST_REMARKS: usize = 500;

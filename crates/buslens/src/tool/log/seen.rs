@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Format, Log, Source};
+use super::{Format, Input, Log, Options, Reading, Source};
 use crate::dialogue::foreign::FOREIGN;
 use crate::modbus::exceptions;
 
@@ -126,6 +126,13 @@ const OLD_NAMES: &[(u8, &str)] = &[
     (11, "gateway target device"),
 ];
 
+/// What the lines of a text tell that hold no telegram.
+pub fn seen(text: &str, options: Options) -> Vec<Seen> {
+    let reading = Reading { input: Input::Text, ..Reading::default() };
+    let log = Log::read_with(None, text.as_bytes(), &reading, options);
+    log.map_or(Vec::new(), |log| log.seen(&text.as_bytes()))
+}
+
 impl Log {
     /// What its unread lines tell, the most telling first.
     pub fn seen(&self, source: &dyn Source) -> Vec<Seen> {
@@ -220,7 +227,9 @@ fn has_values(line: &str) -> bool {
     while let Some((_, inside)) = rest.split_once('[') {
         let (list, behind) = inside.split_once(']').unwrap_or((inside, ""));
         rest = behind;
-        let numbers: Option<Vec<f64>> = list.split(',').map(|item| item.trim().parse().ok()).collect();
+        // The standard library's tables for that weigh 14 kB.
+        let number = |item: &str| lexical_core::parse::<f64>(item.trim().as_bytes()).ok();
+        let numbers: Option<Vec<f64>> = list.split(',').map(number).collect();
         let is_no_byte = |number: &f64| *number < 0.0 || *number > 255.0 || number.fract() != 0.0;
         if numbers.is_some_and(|numbers| numbers.len() > 1 && numbers.iter().any(is_no_byte)) {
             return true;
