@@ -783,12 +783,4 @@ mod tests {
         assert!(!quoted(b"> one\n> two"), "two lines could be sent");
         assert!(!quoted(b"> one\n< two\n> three"));
     }
-
-    #[test]
-    fn numbers_that_count_their_lines() {
-        let counts = |text: &[u8]| counted(text, None);
-        assert!(counts(b"8 01 03 00 C8 00 03 84 35\n7 01 03 02 00 00 B8 44\n"));
-        assert!(!counts(b"8 01 03 00 C8 00 03 84 35\n8 01 03 00 C8 00 03 84 35\n"), "of one length");
-        assert!(!counts(b"8 01 03 00 C8 00 03 84 35\n7 01 03 02 00 00 B8\n"));
-    }
 }
