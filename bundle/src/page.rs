@@ -17,10 +17,17 @@ const NOT_KEPT: &str = "\nconst started = () => {};\n";
 /// The note in the page while it is not running. A page opened by file:// gets neither its scripts
 /// nor its stylesheet, so only the document itself can say why nothing happens. Everywhere else the
 /// stylesheet hides the note, and the boot script removes it or gives it the fitting words.
-const NOTE: &str = "<p id=\"boot\">Buslens is starting. If it does not: browsers load it from a web \
-    server only, not from a file. Beside it, <a href=\"./buslens.html\">buslens.html</a> is the whole page as \
-    one file, which opens anywhere; and in the project's folder, <code>cargo xtask serve</code> starts a \
-    server.</p>";
+fn note(edition: &Edition) -> String {
+    let one_file = edition.one_file.map_or(String::new(), |(name, _)| {
+        format!(
+            " Beside it, <a href=\"./{name}\">{name}</a> is the whole page as one file, which opens anywhere."
+        )
+    });
+    format!(
+        "<p id=\"boot\">Buslens is starting. If it does not: browsers load it from a web server only, not from a \
+         file.{one_file} In the project's folder, <code>cargo xtask serve</code> starts a server.</p>"
+    )
+}
 
 /// Hides the note; belongs to the end of the stylesheet.
 pub const NOTE_STYLE: &str = include_str!("boot/note.css");
@@ -99,7 +106,7 @@ pub fn html(template: &str, edition: &Edition, links: &Links) -> Result<String, 
             integrity(&boot.content)
         ),
     ];
-    document(template, POLICY, edition, &lines, NOTE)
+    document(template, POLICY, edition, &lines, &note(edition))
 }
 
 /// The template with the policy at the start of its head, before anything that the policy governs, `lines` at

@@ -9,11 +9,11 @@ const REQUEST: &str = ".side[aria-label=Request]";
 const REPLY: &str = ".side[aria-label=Reply]";
 const SEARCH: &str = "What do you want to do? A name, a function code, an address";
 
-/// Finds something and opens its form.
+/// Finds something and opens its form. A hit of a sentence says its telegram; it is the first one then.
 async fn find(page: &Page, text: &str, label: &str) -> Result {
     page.fill_in(SEARCH, text).await?;
-    let script = "const hit = [...document.querySelectorAll('.finder [role=option]')].find((hit) => \
-                  hit.querySelector('b').textContent == arguments[0]); \
+    let script = "const hits = [...document.querySelectorAll('.finder [role=option]')]; \
+                  const hit = hits.find((hit) => hit.querySelector('b').textContent == arguments[0]) ?? hits[0]; \
                   if (!hit) throw new Error(`${arguments[0]} is not found`); hit.click()";
     page.driver.execute(script, vec![json!(label)]).await?;
     page.settle().await?;

@@ -43,7 +43,7 @@ async fn the_summary_of_a_log_is_copied_and_shown() -> Result {
         let text = page.clipboard().await?;
         assert!(text.starts_with("converter.log: "), "{text}");
         assert!(
-            text.contains("XON/XOFF") && text.contains("[damaged]") && text.contains("01 03 06"),
+            text.contains("XON/XOFF") && text.contains("[damaged") && text.contains("01 03 06"),
             "{text}"
         );
         let html = page.clipboard_html().await?;
@@ -52,7 +52,7 @@ async fn the_summary_of_a_log_is_copied_and_shown() -> Result {
         page.tick("With bytes").await?;
         page.until("dialog[open] .done", "Copied").await?;
         let text = page.clipboard().await?;
-        assert!(!text.contains("01 03 06") && text.contains("[damaged]"), "{text}");
+        assert!(!text.contains("01 03 06") && text.contains("[damaged"), "{text}");
         page.close().await?;
     }
     Ok(())

@@ -250,7 +250,7 @@ async fn a_large_log_does_not_block_the_page() -> Result {
 
 /// Twenty logs of 20 MB one after another: what the page and its worker had for one is there for the next.
 #[tokio::test(flavor = "multi_thread")]
-#[ignore = "takes minutes: `cargo xtask test page twenty_large_logs -- --ignored`"]
+#[ignore = "takes minutes: `cargo xtask test page twenty_large_logs --long`"]
 async fn twenty_large_logs_leave_nothing_behind() -> Result {
     const WARM: usize = 3;
     let folder = tempfile::tempdir()?;

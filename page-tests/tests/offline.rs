@@ -402,6 +402,13 @@ async fn the_page_as_one_file_opens_from_a_disk() -> Result {
     page.view("build").await?;
     page.fill("main input", "write 123.456 good to channel 6").await?;
     page.until("main", "Write Universal channel 6 = 123.456, good").await?;
+    page.click(".finder [role=option]").await?;
+    page.until(".side[aria-label=Request] .said", "Universal channel 6 = 123.456").await?;
+    assert_eq!(
+        page.bytes_in(".side[aria-label=Request]").await?,
+        "01 10 00 D7 00 03 06 00 80 42 F6 E9 79 28 15",
+        "as section 2.6.1 of the manual prints it"
+    );
     use_all_of_it(&page, &log).await?;
     assert_eq!(page.value("return workers").await?, json!(1), "the log is read by the worker");
     assert_eq!(page.value("return violations").await?, json!([]));

@@ -22,7 +22,7 @@ const TYPE: &str = "const [texts, done] = arguments; const area = document.query
         await new Promise((next) => setTimeout(next, 0)); } \
       return [keys, '']; }; type().then(done, (error) => done([keys, String(error)]));";
 
-/// Each vector is typed with its share of the devices; `--ignored` types each with all of them.
+/// Each vector is typed with its share of the devices; `--long` types each with all of them.
 #[tokio::test(flavor = "multi_thread")]
 async fn every_vector_can_be_typed() -> Result {
     let texts = texts();
@@ -35,7 +35,7 @@ async fn every_vector_can_be_typed() -> Result {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-#[ignore = "takes minutes: `cargo xtask test page every_vector_can_be_typed -- --ignored`"]
+#[ignore = "takes minutes: `cargo xtask test page every_vector --long`"]
 async fn every_vector_can_be_typed_with_every_device() -> Result {
     type_all(|_| texts()).await
 }

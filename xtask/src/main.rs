@@ -29,7 +29,9 @@ Usage: cargo xtask <command>
                      with --dev in a fraction of the time, and not optimized
   serve [--port N]   builds as with --dev, serves dist/ on this machine and rebuilds after each change
   test               runs every check, from the formatting to the page in a browser
-  test page [NAME]   only tests dist/ as it is in a browser, or those tests that are called so
+  test page [NAME] [--long]
+                     only tests dist/ as it is in a browser, or those tests that are called so;
+                     with --long those that take minutes
   fuzz SECONDS [--seed N] [--only TARGET] [--threads N]
                      tries random inputs against the library's laws; --replay FILE tries one again
   mutants [--of codecs|reader] [--sample N] [--seed S]

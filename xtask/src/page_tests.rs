@@ -20,8 +20,12 @@ pub const KEEP_DRIVER: &str = "keep-driver";
 /// How long a driver may take to come up, and to shut its browsers down.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// Runs the page's tests, or those with one of `names` in their names.
+/// What asks for the tests that take minutes.
+const LONG: &str = "--long";
+
+/// Runs the page's tests, or those with one of `names` in their names; with `--long` those that take minutes.
 pub fn run(names: &[&str]) -> Result {
+    let chosen: &[&str] = if names.contains(&LONG) { &["--ignored"] } else { &[] };
     let browser = tools::browser()?;
     let axe = tools::axe()?;
     let screenshots = tools::target_folder().join("page-tests").join("screenshots");
@@ -43,8 +47,9 @@ pub fn run(names: &[&str]) -> Result {
         tools::cargo()
             // What tests measure is printed, too.
             .args(["test", "--package", "page-tests", "--no-fail-fast"])
-            .args(names)
+            .args(names.iter().filter(|name| **name != LONG))
             .args(["--", "--show-output"])
+            .args(chosen)
             .env("BUSLENS_URL", page)
             .env("BUSLENS_DIST", &dist)
             .env("WEBDRIVER_URL", format!("http://127.0.0.1:{}", driver.port))

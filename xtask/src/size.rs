@@ -15,9 +15,9 @@ const FIRST_VIEW: u64 = 620_000;
 /// The most bytes of the whole page, with all views and the reader of logs.
 const WHOLE: u64 = 1_200_000;
 
-/// The most bytes of the page as one file, as it lies on a disk. With base64, its modules take four thirds of
-/// what they take on the way.
-const ONE_FILE: u64 = 1_400_000;
+/// The most bytes of the page as one file, as it lies on a disk. In base64, the modules take four thirds of what
+/// they take on the way; 1 MB was the aim.
+const ONE_FILE: u64 = 1_500_000;
 
 /// What the bundler calls the files whose names have no hash.
 const DOCUMENT: &str = "index.html";

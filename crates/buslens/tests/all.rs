@@ -38,5 +38,7 @@ mod profibus;
 mod registry;
 #[path = "spans.rs"]
 mod spans;
+#[path = "tables.rs"]
+mod tables;
 #[path = "vectors.rs"]
 mod vectors;

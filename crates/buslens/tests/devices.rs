@@ -254,6 +254,49 @@ proptest! {
     }
 }
 
+/// Every part of a description of process data is learned, and none of words that there are not.
+#[test]
+fn eight_words_of_process_data_are_learned() {
+    let profile = Profile::of("keb-f5-profibus").unwrap();
+    for lesson in profile.lessons.iter().filter(|lesson| lesson.count == 1 && !lesson.read) {
+        let mut settings = Settings::default();
+        for subindex in 0..=u8::MAX {
+            profile.learn(lesson.from, subindex, 0x2000 + u32::from(subindex), 4, true, &mut settings);
+        }
+        for words in [&settings.process_output, &settings.process_input] {
+            assert!(words.len() <= 8, "{:04X}h: {words:?}", lesson.from);
+            let taught = words.len() == 8;
+            for (word, n) in words.iter().zip(0_u8..).filter(|_| taught) {
+                assert_eq!(word.index, 0x2002 + u16::from(4 * n), "{:04X}h", lesson.from);
+                assert_eq!(word.sets, 4 * n + 3, "{:04X}h", lesson.from);
+            }
+        }
+    }
+}
+
+/// A number may come in more bytes than it has, where those say nothing but its sign.
+#[test]
+fn wider_values_are_those_that_fit() {
+    let profile = Profile::of("keb-f5-profibus").unwrap();
+    let said = |address: u16, bytes: [u8; 4]| {
+        let span = Span::new(0, 4);
+        let said = profile.parameter(address, 1, Access::Read, Some((&bytes, Order::Big)), span);
+        let block = &said.blocks[0];
+        let codes: Vec<&str> = block.field.problems.iter().map(|problem| problem.code).collect();
+        (block.value().map(|value| value.to_string()), codes)
+    };
+    let signed = profile
+        .parameters()
+        .find(|it| it.length == Some(2) && it.spec.format == buslens::field::Format::Signed);
+    let address = signed.expect("a signed parameter of 16 bits").address;
+    assert_eq!(said(address, [0, 0, 0x05, 0xDC]).1, [""; 0]);
+    assert_eq!(said(address, [0xFF, 0xFF, 0xFA, 0x24]).1, [""; 0]);
+    assert_ne!(said(address, [0xFF, 0xFF, 0xFA, 0x24]).0, said(address, [0, 0, 0x05, 0xDC]).0);
+    for long in [[0xFF, 0xFF, 0x05, 0xDC], [0, 1, 0x85, 0xDC], [0xFF, 0xFE, 0xFA, 0x24], [0x80, 0, 0, 0]] {
+        assert_eq!(said(address, long).1, ["value-too-long"], "{long:02X?}");
+    }
+}
+
 /// Where the values stand in the telegram.
 const OFFSET: usize = 5;
 

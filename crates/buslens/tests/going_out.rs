@@ -208,3 +208,51 @@ fn latencies_of_a_table_add_up() {
     assert_eq!(rows.iter().filter(|row| row[state] == "unanswered").count(), 1);
     assert_eq!(rows.iter().filter(|row| row[state] == "slow").count(), 2);
 }
+
+/// Pieces that logs are made of, put together anyhow.
+const PIECES: [&str; 16] = [
+    "01 03 00 C8 00 03 84 35",
+    "05 83 02 81 30",
+    ":010300C8000331",
+    "10.0.0.7:502",
+    "fe80::1:2",
+    "00:0E:8C:01:02:03",
+    "unit 5",
+    "slave_id=0x05",
+    "Miller",
+    "\n",
+    " ",
+    ", ",
+    "é",
+    "[01][03]",
+    "0x01, 0x03, ",
+    "10:00:00.5 ",
+];
+
+proptest::proptest! {
+    /// Whatever a file holds, something comes out, and what nobody hides stays.
+    #[test]
+    fn any_file_goes_out(bytes in proptest::collection::vec(0_u8.., 0..400)) {
+        goes_out(&bytes);
+    }
+
+    #[test]
+    fn any_text_goes_out(picked in proptest::collection::vec(0..PIECES.len(), 0..60)) {
+        let text: String = picked.into_iter().map(|at| PIECES[at]).collect();
+        goes_out(text.as_bytes());
+    }
+}
+
+fn goes_out(file: &[u8]) {
+    let Ok(log) = Log::read(file, &Reading::default(), Options::default()) else { return };
+    let digest = log.digest(&file, &log.findings(&file));
+    assert!(digest.telegrams.len() <= 10 && !digest.text(true).is_empty());
+    let capture = captured(&log, file);
+    let again = Log::read(&capture, &Reading::default(), Options::default());
+    assert!(again.is_ok_and(|again| again.fault().is_none()));
+    let size = file.len() as u64;
+    let none = log.redacted(&file, size, &Hidden::default());
+    assert!(none.is_capture || none.file == file || str::from_utf8(file).is_err());
+    let all = log.redacted(&file, size, &hidden());
+    assert!(all.replaced.iter().all(|it| it.from != it.to));
+}

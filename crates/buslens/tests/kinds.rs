@@ -153,6 +153,78 @@ fn every_kind_begins_where_it_begins() {
     }
 }
 
+/// The splitter tells lengths before there is a check: of each kind, of what rejects it, and of a beginning of it.
+#[test]
+fn the_length_of_every_kind_is_told() {
+    for stream in streams().iter().filter(|stream| stream.protocol.key == "modbus-rtu") {
+        let splitter = Splitter::new(stream.dialect);
+        for (spec, direction, bytes) in &stream.telegrams {
+            let what = format!("{} {}", stream.dialect.key, spec.key);
+            let side = usize::from(*direction == Direction::Response);
+            assert_eq!(splitter.rtu_lengths(bytes)[side], Some(bytes.len()), "{what}");
+            for cut in 2..bytes.len() {
+                assert!(splitter.is_beginning(&bytes[..cut]), "{what}, {cut} bytes");
+            }
+            assert_eq!(splitter.rtu_lengths(&[17, bytes[1] | 0x80, 2]), [None, Some(5)], "{what}");
+        }
+    }
+}
+
+/// A frame longer than any is none, however much of it is missing; nor is one without a function.
+#[test]
+fn what_is_too_long_or_nothing_does_not_begin() {
+    let splitter = Splitter::new(DIALECTS[0]);
+    let begins = |key: &str, bytes: &[u8]| {
+        let place = Place { bytes, last: false, in_step: true, waiting: None };
+        splitter.begins(Protocol::of(key).unwrap(), place)
+    };
+    // 253 bytes of values are no whole registers, and 254 make a frame of 259.
+    assert_eq!(begins("modbus-rtu", &[1, 3, 254, 0, 0, 0, 0, 0, 0, 0, 0, 0]), Begins::Nothing);
+    assert_eq!(begins("modbus-rtu", &[1, 3, 250, 0, 0, 0, 0, 0, 0, 0, 0, 0]), Begins::More);
+    assert_eq!(begins("modbus-tcp", &[0, 0, 0, 0, 0, 2, 1, 0]), Begins::Nothing);
+    assert_eq!(begins("modbus-tcp", &[0, 0, 0, 0, 0, 3, 1, 0x80, 1]), Begins::Nothing);
+    assert_eq!(begins("modbus-tcp", &[0, 0, 0, 0, 0, 2, 1, 7]), Begins::Telegram(8));
+    assert_eq!(begins("modbus-tcp", &[0, 0, 0, 0, 0, 6, 1, 3]), Begins::More);
+    assert_eq!(begins("modbus-tcp", &[0, 0, 0, 0, 0, 1, 1, 3]), Begins::Nothing);
+    assert_eq!(begins("modbus-tcp", &[0, 0, 0, 1, 0, 6, 1, 3]), Begins::Nothing);
+    assert_eq!(begins("modbus-tcp", &[0, 0, 0, 0, 2, 0, 1, 3]), Begins::Nothing);
+}
+
+/// A line of text may hold several: the first one ends where it ends, unless what follows is too short for one.
+#[test]
+fn the_first_of_two_is_told() {
+    for stream in streams().iter().filter(|stream| stream.dialect.key == DIALECTS[0].key) {
+        let first = stream.protocol.first;
+        for (spec, _, bytes) in &stream.telegrams {
+            let with = |more: &[u8]| first(&[bytes, more].concat());
+            let what = format!("{} of {}", spec.key, stream.protocol.key);
+            assert_eq!(first(bytes), bytes.len(), "{what}");
+            assert_eq!(with(bytes), bytes.len(), "{what}");
+            if stream.protocol.key == "modbus-rtu" {
+                assert_eq!(with(&[1, 3, 0]), bytes.len() + 3, "{what}");
+                assert_eq!(with(&[1, 3, 0, 0]), bytes.len(), "{what}");
+            }
+        }
+    }
+}
+
+/// Request and response of the same unit and function belong together, and to no other's.
+#[test]
+fn exchanges_are_told_apart() {
+    for (key, mut streams) in [("modbus-rtu", streams()), ("modbus-tcp", streams())] {
+        streams.retain(|stream| stream.protocol.key == key && stream.dialect.key == DIALECTS[0].key);
+        let protocol = Protocol::of(key).unwrap();
+        let mut seen = std::collections::BTreeMap::new();
+        for (spec, _, bytes) in &streams[0].telegrams {
+            let function = bytes[if key == "modbus-tcp" { 7 } else { 1 }];
+            let exchange = (protocol.exchange)(bytes).expect(spec.key);
+            assert_eq!(*seen.entry(function).or_insert(exchange), exchange, "{}", spec.key);
+        }
+        let all: std::collections::BTreeSet<u64> = seen.values().copied().collect();
+        assert_eq!(all.len(), seen.len(), "{key}");
+    }
+}
+
 /// All kinds but those that nothing ends are there, so that what holds for the stream holds for each.
 #[test]
 fn the_streams_leave_no_kind_out() {

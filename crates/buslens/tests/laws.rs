@@ -218,6 +218,14 @@ proptest! {
     }
 }
 
+/// The fields that are no groups and no items of lists: key, offset, depth.
+fn places(field: &Field, depth: usize, found: &mut Vec<(&'static str, usize, usize)>) {
+    if !matches!(field.value, Value::Group) && field.number.is_none() {
+        found.push((field.spec.key, field.span.from, depth));
+    }
+    field.children.iter().for_each(|child| places(child, depth + 1, found));
+}
+
 #[test]
 fn the_guide_and_the_reader_agree() {
     for kind in kinds() {
@@ -226,17 +234,11 @@ fn the_guide_and_the_reader_agree() {
         let bytes = write(&mut serial);
         let reading = walk::read(&mut serial, &bytes);
         let mut read = Vec::new();
-        for field in &reading.fields {
-            field.visit(&mut |field| {
-                let offset = field.span.from;
-                if !matches!(field.value, Value::Group) && field.number.is_none() {
-                    read.push((field.spec.key, offset));
-                }
-            });
-        }
+        reading.fields.iter().for_each(|field| places(field, 0, &mut read));
         for row in rows.iter().filter(|row| matches!(row.size, guide::Size::Fixed(_))) {
-            let (_, offset) = read.iter().find(|(key, _)| *key == row.spec.key).expect(row.spec.key);
+            let (_, offset, depth) = read.iter().find(|(key, ..)| *key == row.spec.key).expect(row.spec.key);
             assert!(row.offset.is_none_or(|told| told == *offset), "{}: {}", kind.1.spec.key, row.spec.key);
+            assert_eq!(row.depth, *depth, "{}: {}", kind.1.spec.key, row.spec.key);
         }
         assert!(rows.len() > 2, "{}", kind.1.spec.key);
     }

@@ -9,6 +9,7 @@ mod law;
 mod link;
 mod log;
 mod long;
+mod out;
 mod report;
 mod sentence;
 mod settings;
@@ -56,5 +57,6 @@ pub static TARGETS: &[&Target] = &[
     &sentence::TARGET,
     &block::TARGET,
     &report::TARGET,
+    &out::TARGET,
     &setup::TARGET,
 ];

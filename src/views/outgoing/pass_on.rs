@@ -6,6 +6,7 @@ use web_sys::Blob;
 use crate::browser::file;
 use crate::components::dialog::Dialog;
 use crate::components::icon::{Glyph, Icon};
+use crate::components::toast::Toasts;
 use crate::worker::messages::Passed;
 use buslens::field::many;
 use buslens::tool::log::{Hidden, Replaced};
@@ -77,6 +78,13 @@ pub fn PassOn(
             }
         });
     };
+    // Told to screen readers, too.
+    let toasts = expect_context::<Toasts>();
+    Effect::new(move || {
+        if let Some(count) = passed.with(|it| it.as_ref().map(|(it, _)| it.replaced.len())) {
+            toasts.announce(format!("{} replaced", many(count, "thing")));
+        }
+    });
     let made = move || passed.with(|passed| passed.as_ref().map(|(passed, _)| outcome(passed)));
     let ready = Memo::new(move |_| passed.with(Option::is_some));
     view! {
@@ -167,7 +175,7 @@ fn outcome(passed: &Passed) -> impl IntoView + use<> {
     );
     let stayed = stayed.into_iter().map(|said| view! { <li>{said}</li> }).collect_view();
     view! {
-        <h3 role="status">
+        <h3>
             {if count == 0 { "Nothing to replace was found".to_owned() } else { many(count, "thing") + " replaced" }}
         </h3>
         {(count > 0)

@@ -68,7 +68,7 @@ pub fn Sheet() -> impl IntoView {
             read.log.ask(Request::Digest);
         }
     });
-    let digest = Signal::derive(move || {
+    let digest = Memo::new(move |_| {
         let digest = match is_log.get() {
             true => (*read.log.digest.get()?).clone(),
             false => report.with(|report| report.digest()),
