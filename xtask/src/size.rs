@@ -4,17 +4,9 @@ use std::path::Path;
 
 use crate::steps::Result;
 
-<<<<<<< HEAD
-/// The most bytes that the first view of the page may fetch, compressed with gzip: on a slow phone line of
-/// 400 kbit/s this is nine seconds. 350 kB were the aim. Of what is there, a quarter is Leptos and what it draws,
-/// a quarter the reader of text (the same for a telegram and for a log), a quarter the tables of protocols and
-/// devices with their words, and the rest the decoder: what else could wait is `tool::blocks` (7 kB) and what reads
-/// packets in a text (6 kB). 1 kB is 1000 bytes.
-=======
 /// The most bytes that the first view of the page may fetch, compressed with gzip, until a telegram is read: on a
 /// slow phone line of 400 kbit/s this is nine seconds. 350 kB are the aim. What is in it is the decoder with its
 /// tables (a vtable of all that can be read leads to all of it), Leptos, and what shows a telegram. 1 kB is 1000 bytes.
->>>>>>> main
 const FIRST_VIEW: u64 = 450_000;
 
 /// The most bytes of the whole page, with all views and the reader of logs.
