@@ -23,6 +23,7 @@ const MOST_SPELLED_OUT: usize = 200;
 pub fn Paper(
     report: Signal<Arc<Report>>,
     /// What was read in short, once that is known.
+    #[prop(into)]
     digest: Signal<Option<Arc<Digest>>>,
     is_log: Signal<bool>,
     #[prop(into)] title: Signal<String>,
