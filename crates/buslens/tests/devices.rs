@@ -285,7 +285,9 @@ fn wider_values_are_those_that_fit() {
         let codes: Vec<&str> = block.field.problems.iter().map(|problem| problem.code).collect();
         (block.value().map(|value| value.to_string()), codes)
     };
-    let signed = profile.parameters().find(|it| it.length == Some(2) && it.spec.format == buslens::field::Format::Signed);
+    let signed = profile
+        .parameters()
+        .find(|it| it.length == Some(2) && it.spec.format == buslens::field::Format::Signed);
     let address = signed.expect("a signed parameter of 16 bits").address;
     assert_eq!(said(address, [0, 0, 0x05, 0xDC]).1, [""; 0]);
     assert_eq!(said(address, [0xFF, 0xFF, 0xFA, 0x24]).1, [""; 0]);

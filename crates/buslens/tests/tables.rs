@@ -130,7 +130,8 @@ fn without_a_frame() {
                 let sure = if reading.certainty == Certainty::Likely { "likely" } else { "open" };
                 let said = [&reading.kind, &reading.said, &reading.reason, &reading.unknown];
                 let said: Vec<String> = said.map(Message::to_string).into();
-                writeln!(table, "{text} | {key} | {} bits, {sure} | {}", reading.bits, said.join(" | ")).unwrap();
+                writeln!(table, "{text} | {key} | {} bits, {sure} | {}", reading.bits, said.join(" | "))
+                    .unwrap();
             }
         }
     }
@@ -235,7 +236,14 @@ fn bodies() {
     }
     for kind in profibus::KINDS.iter().chain(profibus::OTHER_KINDS) {
         let mut body = (kind.new)(&profibus::Settings::default());
-        for text in ["00 00 00 00 00 00", "FF 00 00 00 00 00", "00 FF 00 00 00 00", "04 00 00", "00 01 00", "01 02 03"] {
+        for text in [
+            "00 00 00 00 00 00",
+            "FF 00 00 00 00 00",
+            "00 FF 00 00 00 00",
+            "04 00 00",
+            "00 01 00",
+            "01 02 03",
+        ] {
             let telegram: &mut dyn Telegram = body.as_mut();
             walk::read(telegram, &bytes(text));
             writeln!(table, "{} {text}: {:?}", kind.spec.key, body.diagnosis()).unwrap();
@@ -249,7 +257,11 @@ fn about(body: &dyn Body) -> String {
         let verb = if access.write { "writes" } else { "reads" };
         format!("{verb} {:?} of {} from {:?}", access.count, access.values.len(), access.start)
     });
-    format!("{access}, {}, exception {:?}", if body.only_reads() { "only reads" } else { "changes" }, body.exception())
+    format!(
+        "{access}, {}, exception {:?}",
+        if body.only_reads() { "only reads" } else { "changes" },
+        body.exception()
+    )
 }
 
 /// Telegrams at the edges of what they can say: the sentence, and the problems.
@@ -258,7 +270,17 @@ fn sentences() {
     let mut table = String::new();
     let long = |head: &str, count: usize, part: &str| format!("{head}{}", format!(" {part}").repeat(count));
     let mut texts: Vec<(&str, String)> = Vec::new();
-    for coils in ["01 00", "01 01 01", "01 01 00", "01 01 03", "01 01 06", "01 01 2E", "01 02 55 55", "01 02 FF 0F", "01 02 FF"] {
+    for coils in [
+        "01 00",
+        "01 01 01",
+        "01 01 00",
+        "01 01 03",
+        "01 01 06",
+        "01 01 2E",
+        "01 02 55 55",
+        "01 02 FF 0F",
+        "01 02 FF",
+    ] {
         for quantity in ["00 01", "00 02", "00 03", "00 06", "00 0C"] {
             texts.push(("modbus-pdu", format!("01 00 14 {quantity}\n{coils}")));
         }
@@ -267,11 +289,23 @@ fn sentences() {
     for length in [241, 243, 245, 247] {
         texts.push(("modbus-pdu", long(&format!("14 {:02X} {length:02X} 06", length + 1), length - 1, "00")));
     }
-    for cut in ["B7 A3 93", "C0 01 01", "C0 01", "80 01", "40 01", "C1 01 01 07", "C1 01 01", "C1 01", "C3 01 01 07 08", "00", "F5 13 E5 D3"] {
-        texts.push(("profibus-check-config", cut.to_owned()));
+    for cut in [
+        "B7 A3 93",
+        "C0 01 01",
+        "C0 01",
+        "80 01",
+        "40 01",
+        "C1 01 01 07",
+        "C1 01 01",
+        "C1 01",
+        "C3 01 01 07 08",
+        "00",
+        "F5 13 E5 D3",
+    ] {
+        texts.push(("profibus-chk-cfg", cut.to_owned()));
     }
     for (protocol, text) in texts {
-        let protocol = Protocol::of(protocol).or_else(|| Protocol::of("profibus-fdl"));
+        let protocol = Some(Protocol::of(protocol).expect(protocol));
         for device in [None, Profile::of("keb-f5-profibus")] {
             let report = decode(&text, Options { protocol, device, ..Options::default() });
             for index in 0..report.telegrams.len() {
@@ -280,7 +314,8 @@ fn sentences() {
                 let shown = text.replace('\n', " / ");
                 let shown: String = shown.chars().take(48).collect();
                 let key = device.map_or("-", |device| device.key);
-                writeln!(table, "{shown} | {key} | {} | {}", detail.said.sentence(), problems.join(", ")).unwrap();
+                writeln!(table, "{shown} | {key} | {} | {}", detail.said.sentence(), problems.join(", "))
+                    .unwrap();
             }
         }
     }
@@ -292,20 +327,37 @@ fn sentences() {
 fn addresses() {
     let mut table = String::new();
     for profile in PROFILES {
-        for name in ["", "universal channel", "Universal channel 6", "universal channel 40", "universal channel 41", "universal channel 0",
-            "limit 3", "limit 0", "relay 1", "batch", "mapping", "Sy.51", "sy.5", "speed", "status", "digital 4", "parameter", "nothing", "1"]
-        {
-            let found: Vec<String> = profile.addresses(name).iter().map(|(from, to)| format!("{from}-{to}")).collect();
+        for name in [
+            "universal channel",
+            "Universal channel 6",
+            "universal channel 40",
+            "universal channel 41",
+            "universal channel 0",
+            "limit 3",
+            "limit 0",
+            "relay 1",
+            "batch",
+            "mapping",
+            "Sy.51",
+            "sy.5",
+            "speed",
+            "status",
+            "digital 4",
+            "parameter",
+            "nothing",
+            "1",
+        ] {
+            let found: Vec<String> =
+                profile.addresses(name).iter().map(|(from, to)| format!("{from}-{to}")).collect();
             writeln!(table, "{} | {name} | {}", profile.key, found.join(", ")).unwrap();
         }
-        for display in profile.display {
-            for digit in ["x", "0", "9", "A", "-"] {
-                let text = display.text.replace(['x', 'X'], digit);
-                for text in [text.clone(), text.to_lowercase(), format!("{text}0"), format!(" {text}")] {
-                    let shown = profile.shown(&text).map(|it| it.text);
-                    writeln!(table, "{} | {text} | {shown:?}", profile.key).unwrap();
-                }
-            }
+        // What a display shows in place of an X is a digit.
+        for text in [
+            "Error", "ERROR", "o Flo", "E.bcc", "E_Bc", "E xx", "E 1A", "E 1-", "E 1", "E 123", "EEEP3",
+            "eeepr", "EEEP", "EEEP33", "F 12", "x",
+        ] {
+            let shown = profile.shown(text).map_or("nothing", |it| it.text);
+            writeln!(table, "{} | display {text} | {shown}", profile.key).unwrap();
         }
     }
     assert_table("addresses", &table);
@@ -314,5 +366,9 @@ fn addresses() {
 /// Which way a telegram goes is known of each kind.
 #[test]
 fn directions() {
-    assert!(KINDS.chunks(2).all(|pair| (pair[0].direction, pair[1].direction) == (Direction::Request, Direction::Response)));
+    assert!(
+        KINDS
+            .chunks(2)
+            .all(|pair| (pair[0].direction, pair[1].direction) == (Direction::Request, Direction::Response))
+    );
 }

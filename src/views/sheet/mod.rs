@@ -125,7 +125,7 @@ pub fn Sheet() -> impl IntoView {
                 </div>
             </section>
             <Summary open=summary digest />
-            <Paper report digest=digest.into() is_log=is_log.into() title=state.title spelled_out />
+            <Paper report digest is_log=is_log.into() title=state.title spelled_out />
         </div>
     }
 }

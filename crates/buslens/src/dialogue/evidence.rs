@@ -5,7 +5,7 @@
 //! halving of the chance that other bytes would look so. Its own bytes count ([`reading`]), how it stands in
 //! the text ([`place`]), what else stands in the same place ([`company`]), and the conversation around it. It
 //! is a telegram where the sum reaches [`threshold`], which grows with how much there is to be found by
-//! chance.
+//! chance: pieces without a proof, and where a column of numbers was searched, the places in it.
 //!
 //! | what | bits |
 //! | --- | --- |
@@ -16,6 +16,8 @@
 //! | unit 1 to 32; above 247 | 3; −8 |
 //! | a number of registers or switches that can be; that cannot | 9 or 5; −6 |
 //! | a byte count that counts what follows; with its number of registers | 8; 16 |
+//! | an LRC is right | 8 |
+//! | a header of Modbus TCP whose length is nearly right; behind zeros | 20; 12 |
 //! | the check is there and wrong; the end is missing | −5; −3 |
 //! | bare in its line; said who sends it; a label before it | 4; 4; 2 |
 //! | in brackets of its own; marked as bytes; a row of a dump; words of the trade | 3; 2; 3; 3 |
@@ -383,4 +385,71 @@ fn numbers(pdu: &[u8], splitter: &Splitter) -> Option<i32> {
     };
     let fitting = [(asks, of_request), (answers, of_response)].into_iter().filter(|(fits, _)| *fits);
     fitting.map(|(_, bits)| bits).max()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::modbus::STANDARD;
+
+    /// What bytes are most likely, with nothing before them.
+    fn read(bytes: &[u8]) -> Option<(&'static str, Verdict, i32, bool)> {
+        let splitter = Splitter::new(&STANDARD);
+        let reading = reading(bytes, &splitter, None)?;
+        Some((reading.protocol.key, reading.verdict, reading.bits, reading.cut))
+    }
+
+    #[test]
+    fn bits() {
+        let unchecked = modbus_unchecked::PROTOCOL.key;
+        let rtu = modbus_rtu::PROTOCOL.key;
+        for (bytes, told) in [
+            // A unit, a function, and a number of registers that can be.
+            (&[1, 3, 0, 0xC8, 0, 3][..], Some((unchecked, Verdict::NoCheck, 3 + 5 + 9, false))),
+            (&[1, 3, 0, 0xC8, 0, 3, 0, 0], Some((rtu, Verdict::Wrong, 3 + 5 + 9 - 5, false))),
+            (&[1, 3, 2, 0, 5, 0, 0], Some((rtu, Verdict::Wrong, 3 + 5 + 8 - 5, false))),
+            // One that cannot: only what damaged it says nothing.
+            (&[1, 3, 0, 0xC8, 9, 3], Some((unchecked, Verdict::NoCheck, 3 + 5 - 6, false))),
+            (&[1, 3, 0, 0xC8, 9, 3, 0, 0], Some((rtu, Verdict::Wrong, 3 + 5 - 5, false))),
+            // A PDU alone.
+            (&[3, 0, 0xC8, 0, 3], Some((modbus_pdu::PROTOCOL.key, Verdict::NoCheck, 5 + 9 - 1, false))),
+            // A response without its end.
+            (&[1, 3, 6, 0, 5, 0], Some((unchecked, Verdict::NoCheck, 3 + 5 + 1 - 3, true))),
+            (&[0xE5], Some((profibus_fdl::PROTOCOL.key, Verdict::NoCheck, 8, false))),
+            (&[], None),
+        ] {
+            assert_eq!(read(bytes), told, "{bytes:02X?}");
+        }
+    }
+
+    #[test]
+    fn proofs() {
+        let splitter = Splitter::new(&STANDARD);
+        let proof = |protocol, bytes: &[u8]| proof(protocol, bytes, &splitter);
+        assert_eq!(proof(&modbus_rtu::PROTOCOL, &[1, 3, 0, 0xC8, 0, 3, 0x84, 0x35]), 16 + 3 + 5 + 9);
+        assert_eq!(proof(&modbus_rtu::PROTOCOL, &[1, 3, 0, 0, 0]), 16 + 3 - 6);
+        assert_eq!(proof(&modbus_tcp::PROTOCOL, &[0, 1, 0, 0, 0, 6, 1, 3, 0, 0xC8, 0, 3]), 32);
+        assert_eq!(proof(&profibus_fdl::PROTOCOL, &[0x10, 2, 1, 0x49, 0x4C, 0x16]), 24);
+        assert_eq!(proof(&modbus_rtu::PROTOCOL, &[1, 3]), 0);
+    }
+
+    #[test]
+    fn more_is_found_by_chance_among_more() {
+        assert_eq!([0, 1, 2, 3, 7, 1000].map(threshold), [12, 13, 13, 14, 15, 21]);
+    }
+
+    #[test]
+    fn what_others_say() {
+        for ((pieces, proven, alike), bits) in [
+            ((1, 0, 1), 0),
+            ((2, 0, 2), 2),
+            ((2, 1, 0), 3),
+            ((2, 1, 1), 3),
+            ((5, 5, 0), 8),
+            ((5, 1, 1), -4),
+            ((2, 0, 0), 0),
+        ] {
+            assert_eq!(company(pieces, proven, alike), bits, "{pieces} {proven} {alike}");
+        }
+    }
 }

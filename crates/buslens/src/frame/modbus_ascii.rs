@@ -58,12 +58,24 @@ pub fn characters(bytes: &[u8]) -> String {
 /// digits, and (not always recorded) CR LF.
 pub fn from_characters(characters: &[u8]) -> Option<Vec<u8>> {
     let digits = characters.strip_prefix(b":")?.trim_ascii_end();
+    from_digits(digits).filter(|bytes| bytes.len() >= ASCII.shortest())
+}
+
+/// The bytes that characters stand for which are hex digits only, as where a program records the text that it
+/// was to send as bytes.
+pub fn from_hex_text(characters: &[u8]) -> Option<Vec<u8>> {
+    /// So many digits are no number or word.
+    const SHORTEST: usize = 4;
+    from_digits(characters.trim_ascii()).filter(|bytes| bytes.len() >= SHORTEST)
+}
+
+fn from_digits(digits: &[u8]) -> Option<Vec<u8>> {
     let digit = |byte: u8| char::from(byte).to_digit(16).map(|digit| digit as u8);
     let pairs = digits.chunks(2).map(|pair| match *pair {
         [high, low] => Some(digit(high)? << 4 | digit(low)?),
         _ => None,
     });
-    pairs.collect::<Option<Vec<u8>>>().filter(|bytes| bytes.len() >= ASCII.shortest())
+    pairs.collect()
 }
 
 #[cfg(test)]
@@ -80,6 +92,14 @@ mod tests {
         assert_eq!(from_characters(b":0507F4\r\n"), Some(vec![0x05, 0x07, 0xF4]));
         for not in [&b"020300C800052E"[..], b":0203", b":020300C800052", b":0203 00C8", b""] {
             assert_eq!(from_characters(not), None);
+        }
+    }
+
+    #[test]
+    fn hex_text() {
+        assert_eq!(from_hex_text(b" 020300c8\r\n"), Some(vec![0x02, 0x03, 0x00, 0xC8]));
+        for not in [&b"020300"[..], b"020300C80", b"02 0300C8", b":020300C8", b""] {
+            assert_eq!(from_hex_text(not), None);
         }
     }
 }

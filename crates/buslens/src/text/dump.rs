@@ -204,6 +204,42 @@ mod tests {
         assert_eq!(dump.row(b"0000000 0305 c800").unwrap().words, Words::LowFirst);
     }
 
+    /// What is read of rows one after the other: whether each goes on, and who sends it.
+    fn follow(rows: &[&str]) -> Vec<Option<(bool, Option<Sender>)>> {
+        let mut dump = Dump::default();
+        let mut follow = |text: &&str| {
+            let row = dump.row(text.as_bytes())?;
+            dump.read(row, 8);
+            Some((row.continues, dump.sender(row)))
+        };
+        rows.iter().map(&mut follow).collect()
+    }
+
+    #[test]
+    fn each_side_of_a_conversation_counts_by_itself() {
+        let (first, second) = (Some(Sender::Logger), Some(Sender::Other));
+        let rows = ["TX 0000: 01 03", "RX 0000: 01 03", "TX 0008: 00 C8", "RX 0008: 06 00", "RX 0010: 02"];
+        let told = [(false, None), (false, second), (false, first), (false, second), (true, second)];
+        assert_eq!(follow(&rows), told.map(Some));
+        // What a row is told by has no digits: they are times.
+        let rows = ["09:30:05 0000: 01 03", "09:30:06 0008: 00 C8"];
+        assert_eq!(follow(&rows), [Some((false, None)), Some((true, None))]);
+        // Only indented in another way.
+        let rows = ["00000000  01 03", "    00000000  01 03", "00000008  00 C8"];
+        assert_eq!(follow(&rows), [Some((false, None)), Some((false, second)), Some((false, first))]);
+    }
+
+    #[test]
+    fn offsets_stand_behind_marks_near_the_beginning() {
+        let row = |text: &str| Dump::default().row(text.as_bytes()).map(|row| row.from);
+        assert_eq!(row("| 0000: 01 03"), Some(7));
+        assert_eq!(row("09:30:05 > 0000: 01 03"), Some(16));
+        assert_eq!(row("read,0000: 01 03"), None);
+        assert_eq!(row(&format!("{} 0000: 01 03", "x".repeat(70))), Some(76));
+        assert_eq!(row(&format!("{} 0000: 01 03", "x".repeat(80))), None);
+        assert_eq!(row("123: 01 03"), None);
+    }
+
     #[test]
     fn other_lines_are_no_rows() {
         for text in ["000000-Tx:01 03", "01 03 00 C8", "0103 00C8 0003", "0000 text", "2026  Mar"] {

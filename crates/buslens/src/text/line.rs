@@ -4,6 +4,10 @@
 //! change within it (`7B 04'00 C8`, `8: 01 03`), it has a break: whether it is one telegram or a part of it
 //! is, the evidence decides.
 
+use super::characters::{
+    DIGITS, ESCAPE, address, blank_character, character, decimal, digits, escape_sequence, fills_cell,
+    hex_value, is_bits, is_digit, is_port, is_word, separator, service, wide, word_end, word_of,
+};
 use super::time;
 use super::words::{self, About, Sender, Weight};
 use crate::field::{Direction, Span};
@@ -936,6 +940,8 @@ impl Scan {
 
     /// A string with escapes in it is bytes, each character one: `b'\x01\x03E'`.
     fn quoted(&mut self, line: &[u8], at: usize) -> usize {
+        /// What can follow a backslash, but in a path of Windows.
+        const ESCAPES: &[u8] = b"xX0123456789tnrabvfeu\\\"'";
         let quote = line[at];
         let unclosed = &mut self.unclosed[usize::from(quote == b'"')];
         if *unclosed {
@@ -947,23 +953,7 @@ impl Scan {
             if line[to] == b'\\' {
                 let next = line.get(to + 1).copied().unwrap_or_default();
                 escaped |= matches!(next, b'x' | b'X' | b'0'..=b'7' | b't' | b'n' | b'r');
-                path |= !matches!(
-                    next,
-                    b'x' | b'X' | b'0'
-                        ..=b'9'
-                            | b't'
-                            | b'n'
-                            | b'r'
-                            | b'a'
-                            | b'b'
-                            | b'v'
-                            | b'f'
-                            | b'e'
-                            | b'u'
-                            | b'\\'
-                            | b'"'
-                            | b'\''
-                );
+                path |= !ESCAPES.contains(&next);
                 to += 1;
             }
             to += 1;
@@ -1017,217 +1007,6 @@ impl Scan {
         };
         blank > 0 && text.len() <= blank + 3 * bytes.len() && (1..=blank).any(shows)
     }
-}
-
-/// The byte of a character in a string, and how long it is there.
-fn character(text: &[u8]) -> (u8, usize) {
-    let octal = text.iter().skip(1).take(3).take_while(|c| (b'0'..=b'7').contains(c)).count();
-    match text {
-        [b'\\', b'x' | b'X', a, b, ..] if a.is_ascii_hexdigit() && b.is_ascii_hexdigit() => {
-            (hex_value(&[*a, *b]), 4)
-        }
-        [b'\\', ..] if octal > 0 => {
-            let value = text[1..=octal].iter().fold(0_u32, |sum, c| sum * 8 + u32::from(c - b'0'));
-            (value as u8, 1 + octal)
-        }
-        [b'\\', c, ..] => {
-            let byte = match c {
-                b'n' => b'\n',
-                b'r' => b'\r',
-                b't' => b'\t',
-                b'a' => 7,
-                b'b' => 8,
-                b'v' => 11,
-                b'f' => 12,
-                c => *c,
-            };
-            (byte, 2)
-        }
-        // A letter of Latin-1 in UTF-8 is its byte.
-        [lead @ (0xC2 | 0xC3), next, ..] if (0x80..0xC0).contains(next) => ((lead & 3) << 6 | next & 0x3F, 2),
-        [c, ..] => (*c, 1),
-        [] => (0, 1),
-    }
-}
-
-/// What kind of separator `gap` is: its first mark, or a blank; `None` if it parts more than bytes. Colours
-/// of a terminal and marks of emphasis are nothing.
-fn separator(gap: &[u8]) -> Option<u8> {
-    const LONGEST: usize = 24;
-    let (mut blank, mut mark, mut emphasis) = (false, 0, 0);
-    let mut at = 0;
-    if gap.len() > LONGEST {
-        return None;
-    }
-    while let Some(c) = gap.get(at) {
-        match c {
-            // An ellipsis: bytes are left out.
-            b'.' if gap.get(at + 1) == Some(&b'.') => return None,
-            b' ' | b'\t' => blank = true,
-            b'*' | b'_' | b'~' => emphasis = if emphasis == 0 { *c } else { emphasis },
-            b',' | b';' | b':' | b'.' | b'-' | b'|' | b'/' | b'[' | b']' | b'<' | b'>' | b'"' | b'\''
-            | b'$' | b'%' | b'#' => mark = if mark == 0 { *c } else { mark },
-            &ESCAPE => at += escape_sequence(&gap[at..]).checked_sub(1)?,
-            0x80.. => {
-                at += blank_character(&gap[at..]).checked_sub(1)?;
-                blank = true;
-            }
-            _ => return None,
-        }
-        at += 1;
-    }
-    Some(match (mark, blank, emphasis) {
-        (0, true, _) => b' ',
-        (0, false, emphasis) => emphasis,
-        (mark, ..) => mark,
-    })
-}
-
-const ESCAPE: u8 = 0x1B;
-
-/// How long the sequence for a terminal is that begins `text`: `ESC [ 0 m`; 0 if it is none.
-fn escape_sequence(text: &[u8]) -> usize {
-    const LONGEST: usize = 16;
-    let [ESCAPE, b'[', rest @ ..] = text else { return 0 };
-    let length = rest.iter().take(LONGEST).take_while(|c| is_digit(**c) || matches!(c, b';' | b'?')).count();
-    match rest.get(length) {
-        Some(c) if c.is_ascii_alphabetic() => 2 + length + 1,
-        _ => 0,
-    }
-}
-
-/// How long the character that begins `text` is, if it is a blank beyond ASCII or a dash or quote in the
-/// place of the plain one; else 0.
-fn blank_character(text: &[u8]) -> usize {
-    match text {
-        [0xC2, 0xA0, ..] => 2,
-        // Wide, narrow and invisible blanks, hyphens, quotes.
-        [0xE2, 0x80, 0x80..=0x9F | 0xAF, ..] | [0xE3, 0x80, 0x80 | 0x81, ..] | [0xEF, 0xBB, 0xBF, ..] => 3,
-        _ => 0,
-    }
-}
-
-/// The value of decimal digits and nothing else.
-fn decimal(text: &[u8]) -> Option<usize> {
-    let (value, to) = digits(text, 0)?;
-    (to == text.len()).then(|| usize::try_from(value).ok()).flatten()
-}
-
-/// Whether digits are the bits of a number: `00010000`, `0b00010000`.
-fn is_bits(text: &[u8]) -> bool {
-    let marked = text.starts_with(b"0b") || text.starts_with(b"0B");
-    let bits = if marked { &text[2..] } else { text };
-    matches!(bits.len(), 8 | 16 | 32)
-        && bits.iter().all(|c| matches!(c, b'0' | b'1'))
-        && (marked || bits.contains(&b'1'))
-}
-
-/// Whether `at..to` is all that a cell of a table has, in capital letters: `| BDCB |`.
-fn fills_cell(line: &[u8], at: usize, to: usize) -> bool {
-    let before = line[..at].trim_ascii_end().last();
-    let behind = line[to..].trim_ascii_start().first();
-    before == Some(&b'|') && behind == Some(&b'|') && line[at..to].iter().all(u8::is_ascii_uppercase)
-}
-
-/// A number for a word: the same for the same letters, whatever digits are among them.
-fn word_of(word: &[u8]) -> u32 {
-    let letters = word.iter().filter(|c| c.is_ascii_alphabetic());
-    letters.fold(0x811C_9DC5, |hash, c| (hash ^ u32::from(c | 0x20)).wrapping_mul(0x0100_0193))
-}
-
-/// The end of an IP address, with its port: four decimal numbers with dots between, and no more.
-fn address(line: &[u8], at: usize) -> Option<usize> {
-    let mut to = at;
-    for part in 0..4 {
-        if part > 0 {
-            to = (line.get(to) == Some(&b'.')).then_some(to + 1)?;
-        }
-        let (value, end) = digits(line, to)?;
-        to = (value < 256 && end - to <= 3).then_some(end)?;
-    }
-    match line.get(to) {
-        Some(b':') => Some(digits(line, to + 1).map_or(to, |(_, end)| end)),
-        // tcpdump parts the port with a dot: no byte is so high.
-        Some(b'.') if line.get(to + 1).is_some_and(u8::is_ascii_hexdigit) => {
-            digits(line, to + 1).filter(|(value, _)| *value > 255).map(|(_, end)| end)
-        }
-        Some(c) if is_word(*c) => None,
-        _ => Some(to),
-    }
-}
-
-/// The number behind an address: the client has a high one.
-fn service(address: &[u8]) -> Option<u64> {
-    let marks = |c: &u8| matches!(c, b'.' | b':');
-    let mut places = (0..address.len()).filter(|at| marks(&address[*at]));
-    digits(address, places.nth(3)? + 1).map(|(number, _)| number)
-}
-
-/// Whether a word names a serial port.
-fn is_port(word: &[u8]) -> bool {
-    let numbered = |prefix: &[u8]| {
-        word.len() > prefix.len()
-            && word[..prefix.len()].eq_ignore_ascii_case(prefix)
-            && word[prefix.len()..].iter().all(|c| is_digit(*c))
-    };
-    [b"com".as_slice(), b"ttyusb", b"ttys", b"ttyacm", b"ttyama"].into_iter().any(numbered)
-}
-
-/// The number whose digits begin at `at`, and where they end.
-pub(super) fn digits(line: &[u8], at: usize) -> Option<(u64, usize)> {
-    const MOST: usize = 15;
-    let count = line.get(at..)?.iter().take(MOST + 1).take_while(|c| is_digit(**c)).count();
-    let value = line[at..at + count].iter().fold(0, |sum, c| sum * 10 + u64::from(c - b'0'));
-    (1..=MOST).contains(&count).then_some((value, at + count))
-}
-
-pub(super) fn is_digit(c: u8) -> bool {
-    c.is_ascii_digit()
-}
-
-/// Whether a character is part of a word: letters and digits of ASCII, and the two bytes that letters of
-/// Latin alphabets have in UTF-8. Other scripts' signs part words.
-fn is_word(c: u8) -> bool {
-    c.is_ascii_alphanumeric() || (0xC3..=0xC9).contains(&c)
-}
-
-/// Where the word that begins at `at` ends.
-fn word_end(line: &[u8], mut at: usize) -> usize {
-    loop {
-        at += match line.get(at..).unwrap_or_default() {
-            [c, ..] if c.is_ascii_alphanumeric() => 1,
-            [0xC3..=0xC9, 0x80..0xC0, ..] => 2,
-            _ => return at,
-        };
-    }
-}
-
-/// The full-width digit or letter that begins `text`, as East Asian keyboards write it, in ASCII.
-fn wide(text: &[u8]) -> Option<u8> {
-    match text {
-        [0xEF, 0xBC, low @ 0x81..0xC0, ..] => Some(low - 0x60),
-        [0xEF, 0xBD, low @ 0x80..0x9F, ..] => Some(low - 0x20),
-        _ => None,
-    }
-}
-
-/// The value of each hex digit; of all other characters, more than 15.
-static DIGITS: [u8; 256] = {
-    let mut digits = [0xFF; 256];
-    let mut at = 0;
-    while at < 16 {
-        digits[b"0123456789ABCDEF"[at] as usize] = at as u8;
-        digits[b"0123456789abcdef"[at] as usize] = at as u8;
-        at += 1;
-    }
-    digits
-};
-
-/// The value of up to two hex digits.
-fn hex_value(digits: &[u8]) -> u8 {
-    digits
-        .iter()
-        .fold(0, |value, c| value << 4 | (if is_digit(*c) { c - b'0' } else { (c | 32) - b'a' + 10 }))
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! A layout that a person makes: in one line it is marked which part is the time, who speaks, and
 //! the bytes.
 
-use super::line::is_digit;
+use super::characters::is_digit;
 use super::time;
 use super::words::Sender;
 use crate::field::{Direction, Span};

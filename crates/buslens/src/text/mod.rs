@@ -17,6 +17,7 @@
 //!
 //! Everything takes linear time, and usual lines do not allocate.
 
+mod characters;
 mod columns;
 mod dump;
 mod encoding;
@@ -766,4 +767,20 @@ fn numbers(text: &[u8]) -> (Option<Numbers>, Option<Style>) {
         _ => None,
     };
     (numbers, style.map(|(style, _)| style))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn marks_that_quote() {
+        assert_eq!(
+            ["> 01 03", ">> 01", "> > 01", "  01", "-> 01"].map(|line| quote(line.as_bytes())),
+            [1, 2, 3, 0, 0]
+        );
+        assert!(quoted(b"> one\n> two\r\n\n> three"));
+        assert!(!quoted(b"> one\n> two"), "two lines could be sent");
+        assert!(!quoted(b"> one\n< two\n> three"));
+    }
 }

@@ -1,6 +1,6 @@
 //! Times in a line: of day, with a date, since 1970, since the start.
 
-use super::line::{digits, is_digit};
+use super::characters::{digits, is_digit};
 
 /// A time and where it ends in the line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

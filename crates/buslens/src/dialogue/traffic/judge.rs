@@ -152,12 +152,11 @@ impl Traffic {
             self.choose_typed(&mut weak);
         }
         self.settle_pdus(&weak, &gone);
-        let known = Known::of(self, &weak, &gone);
-        let threshold = evidence::threshold(weak.iter().filter(|weak| weak.read).count());
+        let known = Known::of(self, &weak, &gone, typed);
         // Telegrams inside of what is none.
         let mut more: Vec<(u32, Vec<Entry>)> = Vec::new();
         for one in &weak {
-            if self.weigh(one, &known, &gone, &weak, typed, threshold) {
+            if self.weigh(one, &known, &gone) {
                 self.accept(one, &known);
             } else if let Some(copies) = self.reject(one, &known, &mut gone) {
                 more.push((one.entry, copies));
@@ -334,6 +333,8 @@ impl Traffic {
         const MOST: usize = 10_000;
         /// So many bits speak for a protocol.
         const COMPANY: u32 = 5;
+        /// And so many leave no doubt.
+        const SURE: u32 = 16;
         if self.entries.len() > MOST {
             return;
         }
@@ -360,18 +361,14 @@ impl Traffic {
             let index = one.entry as usize;
             let own = self.entries[index].protocol();
             let telegram = bytes(&self.entries[index], &self.data).to_vec();
-            let sure = (chosen.fit)(&telegram, &self.settings).bits >= 16;
-            let other = sure
+            let bits = (chosen.fit)(&telegram, &self.settings).bits;
+            let other = bits >= SURE
+                || (family(chosen) != Family::Serial && bits > COMPANY + 2)
                 || self.settings.bus.is_some_and(|bus| bus == chosen.bus() && bus != own.bus())
                 || (self.lacks_data(index) && !one.cut)
-                || (family(chosen) != Family::Serial
-                    && (chosen.fit)(&telegram, &self.settings).bits > COMPANY + 2)
                 || !one.read
                 || chosen.is(&modbus_ascii::PROTOCOL);
-            let goes_with = company.contains(&(telegram.len(), chosen.key));
-            if !one.read && (goes_with || (chosen.fit)(&telegram, &self.settings).bits > 0) {
-                one.read = true;
-            }
+            one.read |= bits > 0 || company.contains(&(telegram.len(), chosen.key));
             if other && !chosen.is(own) {
                 let verdict = (chosen.verdict)(&telegram);
                 self.retype(index, &telegram, chosen, verdict);
@@ -388,22 +385,13 @@ impl Traffic {
     }
 
     /// Whether an entry without a proof is a telegram.
-    fn weigh(
-        &self,
-        one: &Weak,
-        known: &Known,
-        gone: &HashSet<u32>,
-        weak: &[Weak],
-        typed: bool,
-        threshold: i32,
-    ) -> bool {
+    fn weigh(&self, one: &Weak, known: &Known, gone: &HashSet<u32>) -> bool {
         let entry = &self.entries[one.entry as usize];
         let own = bytes(entry, &self.data);
         let facts = &one.facts;
         // What one person types into an empty page is meant to be one.
-        let alone = weak.len() == 1 && self.entries.len() == 1;
-        let meant = one.read || alone || self.settings.bus.is_some();
-        if typed && meant && !facts.abridged {
+        let meant = one.read || self.entries.len() == 1 || self.settings.bus.is_some();
+        if known.typed && meant && !facts.abridged {
             return true;
         }
         // Nothing so short can be told from other things, but an exception where a request waits for its answer.
@@ -430,7 +418,7 @@ impl Traffic {
         if known.families.iter().any(|seen| *seen) && !known.families[family as usize] {
             bits += OTHER_KIND;
         }
-        if typed {
+        if known.typed {
             bits += CONVERSATION;
         }
         if let [profibus_fdl::SC] = own {
@@ -442,7 +430,7 @@ impl Traffic {
             bits -= CONVERSATION;
         }
         let of_columns = if facts.column { evidence::threshold(self.in_columns) } else { 0 };
-        bits >= threshold.max(of_columns)
+        bits >= known.threshold.max(of_columns)
     }
 
     /// Whether an entry answers one of those just before it, or is answered by one just behind.
@@ -556,8 +544,12 @@ impl Traffic {
 /// The bytes of a telegram, and which sides it can be of.
 type Sided = (Vec<u8>, [bool; 2]);
 
-/// What the telegrams with a proof say of the others.
+/// What the text as a whole says of what is without a proof: most of it by the telegrams that have one.
 struct Known {
+    /// Who typed it typed hardly anything but telegrams.
+    typed: bool,
+    /// How many bits it takes.
+    threshold: i32,
     /// Units with their functions.
     seen: HashSet<(u8, u8)>,
     /// Of which [`Family`] there are some.
@@ -567,11 +559,17 @@ struct Known {
 }
 
 impl Known {
-    fn of(traffic: &Traffic, weak: &[Weak], gone: &HashSet<u32>) -> Self {
+    fn of(traffic: &Traffic, weak: &[Weak], gone: &HashSet<u32>, typed: bool) -> Self {
         /// More that begin alike are a log whose lines tell enough.
         const MOST: usize = 16;
         let without: HashSet<u32> = weak.iter().map(|weak| weak.entry).collect();
-        let mut known = Self { seen: HashSet::new(), families: [false; 3], bodies: HashMap::new() };
+        let mut known = Self {
+            typed,
+            threshold: evidence::threshold(weak.iter().filter(|weak| weak.read).count()),
+            seen: HashSet::new(),
+            families: [false; 3],
+            bodies: HashMap::new(),
+        };
         for (index, entry) in (0_u32..).zip(&traffic.entries) {
             if without.contains(&index) || gone.contains(&index) || entry.role == Role::Discarded {
                 continue;

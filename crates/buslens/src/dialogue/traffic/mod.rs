@@ -7,8 +7,10 @@ mod collect;
 mod conversation;
 mod entry;
 mod judge;
+mod lane;
 mod pieces;
 mod statistics;
+mod stream;
 
 pub use collect::{Chunk, Traffic};
 pub use entry::{Entry, Hint, Role};

@@ -1,9 +1,10 @@
 //! Pieces of a text: what in them is proven to be a telegram, what is the beginning of one that goes on in the
 //! next piece, and what may be one.
 
-use super::collect::{PAUSE, Row, Traffic, has_length, is_right, keep};
+use super::collect::{Traffic, has_length, is_right, keep};
 use super::entry::{Hint, NO_TIME, Role};
 use super::judge::Weak;
+use super::lane::{PAUSE, Row};
 use crate::dialogue::evidence::{self, Reading};
 use crate::dialogue::foreign::FOREIGN;
 use crate::field::Facts;
@@ -270,12 +271,7 @@ impl Traffic {
             self.add_weak(index, &telegram, 0, facts, Some(reading));
             return true;
         }
-        let text = bytes.trim_ascii();
-        if text.len() < 8 || text.len() % 2 == 1 || !text.iter().all(u8::is_ascii_hexdigit) {
-            return false;
-        }
-        let digit = |c: u8| char::from(c).to_digit(16).unwrap_or_default() as u8;
-        let telegram: Vec<u8> = text.chunks(2).map(|pair| digit(pair[0]) << 4 | digit(pair[1])).collect();
+        let Some(telegram) = modbus_ascii::from_hex_text(bytes) else { return false };
         let mut found = Vec::new();
         self.whole(index, &telegram, true, &mut found) && {
             self.take_found(index, &telegram, 0, &found);

@@ -232,7 +232,9 @@ impl Search<'_> {
             let length = wanted.len().min(reading.len() - skip);
             if length > 0 && wanted[..length] == reading[skip..skip + length] {
                 self.places.extend(&piece.places[skip..skip + length]);
-            } else if let Some(decoded) = of_characters(reading).filter(|decoded| wanted.starts_with(decoded))
+            } else if let Some(decoded) = modbus_ascii::from_characters(reading)
+                .or_else(|| modbus_ascii::from_hex_text(reading))
+                .filter(|decoded| wanted.starts_with(decoded))
             {
                 // Two characters are one byte.
                 let colon = usize::from(reading.first() == Some(&b':'));
@@ -252,17 +254,4 @@ impl Search<'_> {
         }
         false
     }
-}
-
-/// The bytes that characters stand for: of a frame of Modbus ASCII, or hex text.
-fn of_characters(characters: &[u8]) -> Option<Vec<u8>> {
-    if characters.first() == Some(&b':') {
-        return modbus_ascii::from_characters(characters);
-    }
-    let digit = |c: &u8| char::from(*c).to_digit(16).map(|digit| digit as u8);
-    let pairs = characters.trim_ascii().chunks(2).map(|pair| match pair {
-        [high, low] => Some(digit(high)? << 4 | digit(low)?),
-        _ => None,
-    });
-    pairs.collect::<Option<Vec<u8>>>().filter(|bytes| bytes.len() >= 4)
 }
