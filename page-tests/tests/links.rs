@@ -1,5 +1,7 @@
 //! What is shown stands in the address: links, reloads, back and forward bring it back.
 
+use buslens::field::hex;
+use buslens::walk::CRC_16_MODBUS;
 use page_tests::{DESKTOP, Page, Result, VIEWS};
 use serde_json::json;
 
@@ -10,9 +12,14 @@ fn long(lines: u32) -> String {
     let mut noise = 1_u32;
     let mut byte = || {
         noise = noise.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        format!("{:02X}", noise >> 24)
+        (noise >> 24) as u8
     };
-    (0..lines).map(|_| (0..8).map(|_| byte()).collect::<Vec<_>>().join(" ") + "\n").collect()
+    let mut line = |_| {
+        let mut bytes = vec![1, 6, byte(), byte(), byte(), byte()];
+        bytes.extend((CRC_16_MODBUS.wire(&bytes) as u16).to_be_bytes());
+        hex(&bytes) + "\n"
+    };
+    (0..lines).map(&mut line).collect()
 }
 
 #[tokio::test(flavor = "multi_thread")]

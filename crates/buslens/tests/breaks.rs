@@ -266,6 +266,15 @@ mod texts {
         log
     }
 
+    /// A character that no byte stands for had its bytes in the string, each with the place of the whole one.
+    #[test]
+    fn strings_hold_no_characters_that_are_no_bytes() {
+        assert!(decode("0\"0\\0Ā\"", Options::default()).telegrams.is_empty());
+        // Those of Latin-1 are bytes.
+        let text = r#"b"\x01\x03\x00È\x00\x03\x845""#;
+        assert_eq!(decode(text, Options::default()).telegrams[0].line.bytes[3], 0xC8);
+    }
+
     /// Where a part ended within a character of two units, or began with a mark, the places of all later
     /// lines were off.
     #[test]

@@ -52,6 +52,8 @@ pub struct ReadState {
     key: RwSignal<String>,
     /// The file that is read in the place of the text, where it is too large for that, or is none.
     file: RwSignal<Option<Opened>, LocalStorage>,
+    /// The name of the file that the text is of.
+    text_name: RwSignal<Option<String>>,
     /// A file that was open at the last visit and that this browser has not kept.
     pub missing: RwSignal<Option<String>>,
     choices: RwSignal<Choices>,
@@ -147,6 +149,7 @@ impl ReadState {
             settling: StoredValue::new_local(None),
             key: RwSignal::default(),
             file,
+            text_name: RwSignal::default(),
             missing: RwSignal::default(),
             choices,
             report,
@@ -246,7 +249,13 @@ impl ReadState {
 
     /// What the input is called, where it has a name.
     pub fn file_name(&self) -> Option<String> {
-        self.file.with(|file| file.as_ref().map(|file| file.name.clone()))
+        let file = self.file.with(|file| file.as_ref().map(|file| file.name.clone()));
+        file.or_else(|| self.text_name.get())
+    }
+
+    /// Whether the input is text that can be edited.
+    pub fn is_text(&self) -> bool {
+        self.file.with(Option::is_none)
     }
 
     /// What is shown, in a few words: tabs and the browser's history tell pages apart by it.
@@ -368,6 +377,7 @@ impl ReadState {
     fn put(&self, text: String) {
         self.missing.set(None);
         self.file.set(None);
+        self.text_name.set(None);
         self.settling.set_value(None);
         self.key.set(format!("text {:x}", hash(&text)));
         self.text.set(text.clone());
@@ -416,6 +426,7 @@ impl ReadState {
                 _ if file.size() == 0.0 => state.toasts.say(format!("{name} is empty.")),
                 Ok(text) if !text.contains('\0') => {
                     state.load(text.trim_start_matches('\u{FEFF}').to_owned());
+                    state.text_name.set(Some(name));
                 }
                 _ => state.open_blob(name, file.clone().into(), file.last_modified()),
             }

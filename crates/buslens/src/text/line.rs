@@ -950,6 +950,8 @@ impl Scan {
         let mut to = at + 1;
         let (mut escaped, mut path) = (false, false);
         while to < line.len() && line[to] != quote {
+            // A character that no byte stands for, such as Ā: it is text.
+            path |= line[to] >= 0xC4 && line.get(to + 1).is_some_and(|next| (0x80..0xC0).contains(next));
             if line[to] == b'\\' {
                 let next = line.get(to + 1).copied().unwrap_or_default();
                 escaped |= matches!(next, b'x' | b'X' | b'0'..=b'7' | b't' | b'n' | b'r');

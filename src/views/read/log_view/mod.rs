@@ -85,7 +85,7 @@ fn FileBar() -> impl IntoView {
         log.ask(Request::Digest);
         summary.set(true);
     };
-    let has_text = move || read.file_name().is_none() && !read.editing.get();
+    let has_text = move || read.is_text() && !read.editing.get();
     view! {
         <section class="file-bar" aria-label="File">
             <Icon glyph=Glyph::File />
