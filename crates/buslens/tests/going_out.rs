@@ -163,6 +163,19 @@ fn the_same_is_replaced_by_the_same() {
     assert_eq!((none.file.as_slice(), none.replaced), (file.as_slice(), Vec::new()));
 }
 
+/// Whoever names nothing hides nothing: it was looked for without end.
+#[test]
+fn an_empty_name_hides_nothing() {
+    let file = text("server.log");
+    let capture = captured(&read(&file, ""), &file);
+    for file in [file, capture] {
+        let hidden = |names: Vec<String>| Hidden { names, ..Hidden::default() };
+        let (none, empty) =
+            (redacted(&file, &hidden(Vec::new())), redacted(&file, &hidden(vec![String::new()])));
+        assert_eq!((empty.file, empty.replaced), (none.file, none.replaced));
+    }
+}
+
 #[test]
 fn bytes_are_replaced_as_they_are_written() {
     for (line, passed) in [

@@ -11,7 +11,8 @@ pub static TARGET: Target = Target {
     key: "out",
     about: "what goes out of a log: its digest, a capture, a log to pass on",
     share: 2,
-    memory: USUAL_MEMORY,
+    // A log, and what is made of it.
+    memory: 2 * USUAL_MEMORY,
     make: |random, seeds| {
         let file = match random.below(4) {
             0 => make::stream(random, seeds),
@@ -65,7 +66,9 @@ fn capture(log: &Log, file: &[u8], options: &Options) {
 /// A log to pass on is as long, and nothing that was hidden is in it.
 fn passed_on(log: &Log, file: &[u8], hidden: &Hidden) {
     let Redacted { file: passed, replaced, is_capture, .. } = log.redacted(&file, file.len() as u64, hidden);
-    assert!(is_capture || passed.len() == file.len(), "{} of {}", passed.len(), file.len());
+    // What was in UTF-16 goes out in UTF-8.
+    let same = passed.len() == file.len() || file.contains(&0);
+    assert!(is_capture || same, "{} of {}", passed.len(), file.len());
     for it in &replaced {
         assert!(it.times > 0 && it.from != it.to, "{it:?}");
     }

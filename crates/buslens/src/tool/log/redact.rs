@@ -441,7 +441,8 @@ impl<'a> Desk<'a> {
                 self.hide_text(Kind::Text, span, old, &mut bytes);
             }
         }
-        for name in &self.hidden.names {
+        // An empty name would be found for ever.
+        for name in self.hidden.names.iter().filter(|name| !name.is_empty()) {
             let name = name.as_bytes();
             let mut from = 0;
             while let Some(at) = find(&old[from..], name) {
