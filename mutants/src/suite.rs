@@ -306,7 +306,7 @@ fn compile(folder: &Path, arguments: &[&str]) -> Result<(Vec<PathBuf>, Vec<Error
         .output()
         .map_err(|error| format!("Cargo did not start: {error}."))?;
     let said = String::from_utf8_lossy(&output.stdout);
-    let (mut binaries, mut errors) = (Vec::new(), Vec::new());
+    let (mut binaries, mut errors, mut elsewhere) = (Vec::new(), Vec::new(), String::new());
     for said in said.lines().filter_map(|line| serde_json::from_str::<Said>(line).ok()) {
         binaries.extend(said.executable);
         let Some(message) =
@@ -318,12 +318,13 @@ fn compile(folder: &Path, arguments: &[&str]) -> Result<(Vec<PathBuf>, Vec<Error
             message.spans.into_iter().partition(|it| it.is_primary);
         let at =
             |spans: Vec<Shown>| spans.into_iter().map(|span| (span.file_name, span.byte_start)).collect();
-        if !places.is_empty() {
-            errors.push(Error { message: message.message, places: at(places), beside: at(beside) });
+        match places.is_empty() {
+            true => elsewhere += &message.message,
+            false => errors.push(Error { message: message.message, places: at(places), beside: at(beside) }),
         }
     }
     if !output.status.success() && errors.is_empty() {
-        return Err(String::from_utf8_lossy(&output.stderr).into_owned());
+        return Err(format!("{}{elsewhere}", String::from_utf8_lossy(&output.stderr)));
     }
     Ok((binaries, errors))
 }
