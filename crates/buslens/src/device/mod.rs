@@ -225,6 +225,7 @@ pub struct Settings {
 
 /// How a device is at present, as far as what was written and read before tells.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "json", derive(serde::Serialize, serde::Deserialize))]
 pub struct Present {
     pub limits: Limits,
     /// Reading limits gives one after the other, and no status.
@@ -235,6 +236,7 @@ pub struct Present {
 
 /// How far changing limits has come.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "json", derive(serde::Serialize, serde::Deserialize))]
 pub enum Limits {
     /// Nothing was seen of it.
     #[default]

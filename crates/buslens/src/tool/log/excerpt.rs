@@ -5,6 +5,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Log, Source, State};
+use crate::device::Present;
 use crate::dialogue::{Certainty, Choice, Guess};
 use crate::field::{Direction, Span};
 use crate::frame::{PROTOCOLS, Protocol, Verdict};
@@ -22,6 +23,8 @@ pub struct Excerpt {
     telegrams: Vec<Neighbour>,
     /// How the devices are set up by then, as links hold it.
     settings: String,
+    /// What nobody sets up: how the device is by then.
+    present: Present,
     /// The lines of the log that the telegram was read from.
     pub text: String,
     /// Where its bytes stand in that text.
@@ -59,6 +62,7 @@ impl Log {
         Excerpt {
             place,
             settings: keep_settings(report.settings(place)),
+            present: report.settings(place).device.present,
             text,
             places,
             telegrams: report.telegrams.iter().map(Neighbour::of).collect(),
@@ -142,7 +146,8 @@ impl Neighbour {
 impl Excerpt {
     /// The telegrams, to be read as `options` say.
     pub fn report(&self, options: &Options) -> Report {
-        let settings = kept_settings(&self.settings);
+        let mut settings = kept_settings(&self.settings);
+        settings.device.present = self.present;
         let mut options = Options { settings, ..options.clone() };
         // What links hold is what a person set up; the rest is the device's.
         options.take_device();
@@ -167,6 +172,12 @@ mod tests {
                 "memograph-rsg45",
                 ">>> request  01 03 00 c8 00 03\n<<< response 01 03 06 00 80 41 40 00 00 35 43\n\
                  >>> request  01 06 20 64 00 05\n<<< response 01 06 20 64 00 05 03 d6\n",
+            ),
+            // Limits are open for editing when a reason is given.
+            (
+                "memograph-rsg45",
+                "TX 00 01 00 00 00 06 05 06 0C 90 01 01\nRX 00 01 00 00 00 06 05 06 0C 90 01 01\n\
+                 TX 00 02 00 00 00 0B 05 10 0C 90 00 02 04 05 01 41 42\nRX 00 02 00 00 00 06 05 10 0C 90 00 02\n",
             ),
             // The ident number of another device.
             ("keb-f5-profibus", "TX 68 0C 0C 68 81 82 5D 3D 3E 88 01 0A 0B 05 EC 00 6A 16\nRX E5\n"),
