@@ -659,9 +659,11 @@ impl<'a> Fitting<'a> {
         }
         let mut place = None;
         self.form.visit(&mut |entry| {
-            let which = entry.spec.role == Role::Address
-                && entry.path != "subindex"
-                && matches!(entry.content, Content::Number { .. });
+            let fits = match &entry.content {
+                Content::Number { width, .. } => form::parse_value(&word.text, *width, entry.spec).is_ok(),
+                _ => false,
+            };
+            let which = entry.spec.role == Role::Address && entry.path != "subindex" && fits;
             if which && place.is_none() && !self.is_filled(&entry.path) {
                 place = Some((entry.path.clone(), entry.spec));
             }
