@@ -7,14 +7,29 @@ pub struct Foreign {
     pub name: &'static str,
     /// Whether a piece of a text is a telegram of it.
     pub fits: fn(&[u8]) -> bool,
+    /// What fits is one beyond doubt: by its length and a sum over it.
+    pub certain: bool,
+}
+
+impl Foreign {
+    const fn likely(name: &'static str, fits: fn(&[u8]) -> bool) -> Self {
+        Self { name, fits, certain: false }
+    }
+
+    const fn certain(name: &'static str, fits: fn(&[u8]) -> bool) -> Self {
+        Self { name, fits, certain: true }
+    }
 }
 
 pub static FOREIGN: &[Foreign] = &[
-    Foreign { name: "M-Bus or IEC 60870-5 (FT1.2 frames)", fits: is_ft12 },
-    Foreign { name: "BACnet MS/TP", fits: is_mstp },
-    Foreign { name: "DIN 66019", fits: is_din_66019 },
-    Foreign { name: "the AA 55 protocol of inverters", fits: |bytes| is_aa55(bytes) },
-    Foreign { name: "a text protocol (~ … CR)", fits: is_tilde_text },
+    Foreign::likely("M-Bus or IEC 60870-5 (FT1.2 frames)", is_ft12),
+    Foreign::likely("BACnet MS/TP", is_mstp),
+    Foreign::likely("DIN 66019", is_din_66019),
+    Foreign::certain("the AA 55 protocol of inverters", is_aa55),
+    Foreign::likely("a text protocol (~ … CR)", is_tilde_text),
+    Foreign::certain("M-Bus", is_meter_bus),
+    Foreign::certain("DL/T 645", is_dlt_645),
+    Foreign::certain("HDLC, as DLMS has it", is_hdlc),
 ];
 
 /// The place of FT1.2 in [`FOREIGN`]: the only one whose frames also pass as PROFIBUS.
@@ -25,6 +40,45 @@ pub const FT12: usize = 0;
 /// Source: IEC 60870-5-1, section 6.2.4.2; EN 13757-2.
 fn is_ft12(bytes: &[u8]) -> bool {
     matches!(*bytes, [0x10, control, address, sum, 0x16] if control.wrapping_add(address) == sum)
+}
+
+/// The long frame of FT1.2 with what M-Bus has in it: a control field of its own, and a CI field where PROFIBUS has
+/// its frame control, which has no such function.
+///
+/// Source: EN 13757-2 and -3.
+fn is_meter_bus(bytes: &[u8]) -> bool {
+    let [0x68, length, again, 0x68, covered @ .., sum, 0x16] = bytes else { return false };
+    let [control, _, ci, ..] = covered else { return false };
+    length == again
+        && covered.len() == usize::from(*length)
+        && covered.iter().fold(0_u8, |sum, byte| sum.wrapping_add(*byte)) == *sum
+        && matches!(control, 0x08 | 0x18 | 0x28 | 0x38 | 0x53 | 0x73 | 0x5B | 0x7B)
+        && matches!(ci, 0x50..=0x52 | 0x5A | 0x5B | 0x70..=0x72 | 0x78 | 0x7A | 0xB8..=0xBF)
+}
+
+/// FEh up to a few times; 68h, address (6), 68h, control, length, data, sum, 16h.
+///
+/// Source: DL/T 645-2007, section 5.
+fn is_dlt_645(bytes: &[u8]) -> bool {
+    let woken = bytes.iter().take_while(|byte| **byte == 0xFE).count();
+    let [covered @ .., sum, 0x16] = &bytes[woken..] else { return false };
+    let [0x68, _, _, _, _, _, _, 0x68, _, length, data @ ..] = covered else { return false };
+    data.len() == usize::from(*length)
+        && covered.iter().fold(0_u8, |sum, byte| sum.wrapping_add(*byte)) == *sum
+}
+
+/// 7Eh, format and length (A0h and more), addresses, …, FCS, 7Eh.
+///
+/// Source: ISO/IEC 13239, frame format type 3; IEC 62056-46.
+fn is_hdlc(bytes: &[u8]) -> bool {
+    /// The remainder that the FCS leaves in CRC-16/IBM-SDLC.
+    const RIGHT: u16 = 0xF0B8;
+    let [0x7E, covered @ .., 0x7E] = bytes else { return false };
+    let [high @ 0xA0..=0xA7, low, ..] = covered else { return false };
+    let crc = covered.iter().fold(0xFFFF_u16, |crc, byte| {
+        (0..8).fold(crc ^ u16::from(*byte), |crc, _| (crc >> 1) ^ (0x8408 * (crc & 1)))
+    });
+    covered.len() == usize::from(u16::from_be_bytes([high & 7, *low])) && crc == RIGHT
 }
 
 /// Preamble 55h FFh, type, destination, source, length (2), header CRC.
@@ -80,6 +134,24 @@ mod tests {
             Some("the AA 55 protocol of inverters")
         );
         assert_eq!(named(b"~20014642\r"), Some("a text protocol (~ … CR)"));
+        let bytes = |text: &str| -> Vec<u8> {
+            text.split(' ').map(|byte| u8::from_str_radix(byte, 16).expect("hex")).collect()
+        };
+        let meter = "68 0F 0F 68 08 03 72 21 43 65 87 24 40 01 07 12 00 00 00 17 16";
+        let mut meter = bytes(meter);
+        let end = meter.len() - 2;
+        meter[end] = meter[4..end].iter().fold(0, |sum: u8, byte| sum.wrapping_add(*byte));
+        assert_eq!(named(&meter), Some("M-Bus"));
+        meter[5] ^= 1;
+        assert_eq!(named(&meter), None, "a sum that is wrong");
+        let dlt = "FE FE FE FE 68 21 43 65 87 09 00 68 11 04 33 33 34 33 00 16";
+        let mut dlt = bytes(dlt);
+        let end = dlt.len() - 2;
+        dlt[end] = dlt[4..end].iter().fold(0, |sum: u8, byte| sum.wrapping_add(*byte));
+        assert_eq!(named(&dlt), Some("DL/T 645"));
+        // SNRM of a client to a meter.
+        assert_eq!(named(&bytes("7E A0 07 03 21 93 0F 01 7E")), Some("HDLC, as DLMS has it"));
+        assert_eq!(named(&bytes("7E A0 07 03 21 93 0F 02 7E")), None);
         assert_eq!(named(&[1, 3, 0, 200, 0, 3, 0x84, 0x35]), None);
         assert_eq!(named(&[0x10, 2, 1, 0x49, 0x4C, 0x16]), None, "PROFIBUS");
     }

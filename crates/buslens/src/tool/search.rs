@@ -659,17 +659,16 @@ impl<'a> Fitting<'a> {
         }
         let mut place = None;
         self.form.visit(&mut |entry| {
-            let Content::Number { width, .. } = entry.content else { return };
-            let which = entry.spec.role == Role::Address && entry.path != "subindex";
+            let fits = match &entry.content {
+                Content::Number { width, .. } => form::parse_value(&word.text, *width, entry.spec).is_ok(),
+                _ => false,
+            };
+            let which = entry.spec.role == Role::Address && entry.path != "subindex" && fits;
             if which && place.is_none() && !self.is_filled(&entry.path) {
-                place = Some((entry.path.clone(), entry.spec, width));
+                place = Some((entry.path.clone(), entry.spec));
             }
         });
-        let Some((path, spec, width)) = place else { return false };
-        // A number that is too large for it is not meant for it.
-        if form::parse_value(&word.text, width, spec).is_err() {
-            return false;
-        }
+        let Some((path, spec)) = place else { return false };
         let whole = word.number.and_then(|number| number.whole).unwrap_or_default();
         if !spec.allows(whole) || path == "number" && !self.has_block(whole) {
             return false;

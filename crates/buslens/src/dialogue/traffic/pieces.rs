@@ -72,6 +72,10 @@ impl Traffic {
         (self.latest_piece.0, self.latest_piece.2) = (row.line, row.hint);
         self.latest_piece.1.clear();
         self.latest_piece.1.extend_from_slice(bytes);
+        if let Some(foreign) = FOREIGN.iter().position(|foreign| foreign.certain && (foreign.fits)(bytes)) {
+            self.foreign_protocols[foreign] += 1;
+            return self.passed.push((row.line, row.offset));
+        }
         let mut found = Vec::new();
         for reading in [bytes, decimal] {
             if self.whole(index, reading, breaks.is_empty(), &mut found) {
