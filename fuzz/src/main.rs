@@ -1,5 +1,5 @@
-//! Runs the targets for a time: `fuzz SECONDS [--seed N] [--only TARGET] [--threads N]`, or one input
-//! again: `fuzz --replay FILE`.
+//! Runs the targets for a time: `fuzz SECONDS [--seed N] [--only TARGET] [--threads N]`, for a number of rounds
+//! (`--rounds N` in the place of `SECONDS`), or one input again: `fuzz --replay FILE`.
 
 mod memory;
 
@@ -19,6 +19,7 @@ static MEMORY: memory::Counted = memory::Counted;
 
 const USAGE: &str = "\
 Usage: fuzz SECONDS [--seed N] [--only TARGET] [--threads N]
+       fuzz --rounds N [--seed N] [--only TARGET] [--threads N]
        fuzz --replay FILE";
 
 /// Where failing inputs go, below Cargo's target folder.
@@ -30,12 +31,15 @@ const LONGEST: Duration = Duration::from_secs(60);
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    let (seconds, options) = match words[..] {
+    let (length, options) = match words[..] {
         ["--replay", file] => return replay(Path::new(file)),
-        [seconds, ref options @ ..] => (seconds, options),
+        ["--rounds", rounds, ref options @ ..] => (rounds.parse().map(Length::Rounds), options),
+        [seconds, ref options @ ..] => {
+            (seconds.parse().map(|seconds| Length::Time(Duration::from_secs(seconds))), options)
+        }
         [] => return refuse(),
     };
-    let Ok(seconds) = seconds.parse() else { return refuse() };
+    let Ok(length) = length else { return refuse() };
     let (mut seed, mut only) = (None, None);
     let mut threads = std::thread::available_parallelism().map_or(1, usize::from);
     for pair in options.chunks(2) {
@@ -56,7 +60,7 @@ fn main() -> ExitCode {
     }
     // Without one, each run tries other inputs.
     let seed = seed.unwrap_or_else(|| std::time::UNIX_EPOCH.elapsed().map_or(1, |elapsed| elapsed.as_secs()));
-    match run(Duration::from_secs(seconds), seed, only, threads) {
+    match run(length, seed, only, threads) {
         Ok(0) => ExitCode::SUCCESS,
         Ok(_) => ExitCode::FAILURE,
         Err(error) => {
@@ -92,6 +96,14 @@ fn replay(file: &Path) -> ExitCode {
     }
 }
 
+/// How long a run is.
+#[derive(Clone, Copy)]
+enum Length {
+    Time(Duration),
+    /// Each thread tries some inputs of each target, so often: the same ones on any machine.
+    Rounds(u64),
+}
+
 /// What a thread is at.
 struct Now {
     target: &'static str,
@@ -109,10 +121,12 @@ struct Run {
     failures: Mutex<HashMap<(&'static str, String), String>>,
     at: Vec<Mutex<Now>>,
     over: AtomicBool,
+    /// How many threads are at work.
+    busy: AtomicU64,
 }
 
 /// Runs all targets, or only one; returns how many kinds of failures there are.
-fn run(time: Duration, seed: u64, only: Option<&'static Target>, threads: usize) -> Result<usize, String> {
+fn run(length: Length, seed: u64, only: Option<&'static Target>, threads: usize) -> Result<usize, String> {
     let seeds = Seeds::load().map_err(|error| format!("The vectors cannot be read: {error}."))?;
     let targets: Vec<&'static Target> =
         TARGETS.iter().copied().filter(|target| only.is_none_or(|only| only.key == target.key)).collect();
@@ -123,6 +137,7 @@ fn run(time: Duration, seed: u64, only: Option<&'static Target>, threads: usize)
         failures: Mutex::default(),
         at: (0..threads).map(|_| Mutex::new(Now { target: "", input: Vec::new(), since: start })).collect(),
         over: AtomicBool::new(false),
+        busy: AtomicU64::new(threads as u64),
     };
     // What panics is told once, with its input.
     std::panic::set_hook(Box::new(|panic| {
@@ -135,9 +150,12 @@ fn run(time: Duration, seed: u64, only: Option<&'static Target>, threads: usize)
         for thread in 0..threads {
             let (run, seeds, targets) = (&run, &seeds, &targets);
             let random = Random(seed.wrapping_mul(1000).wrapping_add(thread as u64));
-            scope.spawn(move || work(run, thread, targets, seeds, random));
+            scope.spawn(move || {
+                work(run, thread, targets, seeds, random, length);
+                run.busy.fetch_sub(1, Ordering::Relaxed);
+            });
         }
-        watch(&run, start, time);
+        watch(&run, start, length);
     });
     let _ = std::panic::take_hook();
     tell(&run, &targets, start.elapsed());
@@ -150,14 +168,27 @@ thread_local! {
     static PANIC: std::cell::Cell<(String, String)> = const { std::cell::Cell::new((String::new(), String::new())) };
 }
 
-/// Tries inputs until the time is over: some milliseconds for each target in turn.
-fn work(run: &Run, thread: usize, targets: &[&'static Target], seeds: &Seeds, mut random: Random) {
+/// Tries inputs until the time is over: some milliseconds for each target in turn, or some inputs.
+fn work(
+    run: &Run,
+    thread: usize,
+    targets: &[&'static Target],
+    seeds: &Seeds,
+    mut random: Random,
+    length: Length,
+) {
     const TURN: Duration = Duration::from_millis(4);
-    while !run.over.load(Ordering::Relaxed) {
+    let mut round = 0;
+    while !run.over.load(Ordering::Relaxed) && !matches!(length, Length::Rounds(rounds) if round == rounds) {
+        round += 1;
         for (index, target) in targets.iter().enumerate() {
             let turn = TURN * target.share;
             let (start, mut count) = (Instant::now(), 0);
-            while start.elapsed() < turn {
+            let goes_on = |count: u64| match length {
+                Length::Time(_) => start.elapsed() < turn,
+                Length::Rounds(_) => count < 8 * u64::from(target.share),
+            };
+            while goes_on(count) {
                 for _ in 0..8 {
                     let input = (target.make)(&mut random, seeds);
                     {
@@ -230,9 +261,15 @@ fn keep(key: &str, input: &[u8]) -> std::io::Result<PathBuf> {
 }
 
 /// Waits for the end, and ends everything where an input takes too long.
-fn watch(run: &Run, start: Instant, time: Duration) {
-    while start.elapsed() < time {
-        std::thread::sleep(Duration::from_millis(200).min(time.saturating_sub(start.elapsed())));
+fn watch(run: &Run, start: Instant, length: Length) {
+    const LOOK: Duration = Duration::from_millis(200);
+    loop {
+        match length {
+            Length::Time(time) if start.elapsed() >= time => break,
+            Length::Time(time) => std::thread::sleep(LOOK.min(time.saturating_sub(start.elapsed()))),
+            Length::Rounds(_) if run.busy.load(Ordering::Relaxed) == 0 => break,
+            Length::Rounds(_) => std::thread::sleep(LOOK),
+        }
         for at in &run.at {
             let now = locked(at);
             if !now.target.is_empty() && now.since.elapsed() > LONGEST {
