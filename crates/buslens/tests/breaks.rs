@@ -298,6 +298,19 @@ mod texts {
         }
     }
 
+    /// A number of one digit that looked like the telegram's next byte, which the next piece begins with.
+    #[test]
+    fn every_byte_has_its_place() {
+        for text in [
+            "0.00\0Tx\x001 64\x000C 0\x000 330101033B8281020000000095B4",
+            "680F0F6801027D12066000000000<-0\\0\\00 000505DC283E",
+        ] {
+            for line in decode(text, Options::default()).lines() {
+                assert_eq!(line.places.len(), line.bytes.len(), "{text:?}");
+            }
+        }
+    }
+
     /// Overflow checks are on in tests.
     #[test]
     fn nothing_overflows() {

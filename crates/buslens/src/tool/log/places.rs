@@ -201,6 +201,8 @@ struct Search<'a> {
     places: Vec<Span>,
     /// The piece that it begins in.
     first: usize,
+    /// How many bytes come before those of each piece that was taken.
+    starts: Vec<usize>,
     /// A piece of it whose line has slips.
     slips: Option<usize>,
 }
@@ -209,14 +211,37 @@ impl Search<'_> {
     /// Takes piece `at`, if it is the next one of the telegram.
     fn take(&mut self, at: usize, piece: &Kept) {
         let found = self.places.len();
-        if found >= self.bytes.len() || self.go_on(at, piece, found) || found == 0 {
+        if found >= self.bytes.len() {
             return;
         }
-        // What came before may only have looked like its beginning.
-        let before = std::mem::take(&mut self.places);
-        if !self.go_on(at, piece, 0) || self.places.len() < before.len() {
-            self.places = before;
+        if self.go_on(at, piece, found) {
+            self.starts.push(found);
+        } else if found > 0 {
+            /// Small numbers that look like its next bytes do not come by the dozen.
+            const BACK: usize = 4;
+            let starts: Vec<usize> = self.starts.iter().rev().copied().take(BACK).chain([0]).collect();
+            for start in starts {
+                if self.take_instead(at, piece, start) {
+                    break;
+                }
+            }
         }
+    }
+
+    /// Takes the piece in place of what was found from `start` on, which may only have looked like the
+    /// telegram's next part, or its beginning: whether that gives more of it.
+    fn take_instead(&mut self, at: usize, piece: &Kept, start: usize) -> bool {
+        let (first, slips, before) = (self.first, self.slips, self.places.split_off(start));
+        let least = start + before.len() + usize::from(start > 0);
+        if self.go_on(at, piece, start) && self.places.len() >= least {
+            self.starts.retain(|other| *other < start);
+            self.starts.push(start);
+            return true;
+        }
+        (self.first, self.slips) = (first, slips);
+        self.places.truncate(start);
+        self.places.extend(before);
+        false
     }
 
     /// Takes the piece for what comes behind the first `found` bytes, if it is that.
