@@ -48,14 +48,15 @@ impl Dump {
     /// The row that a line is, if it is one. Before its offset there may be a time, an arrow, a bar, the
     /// sign of a comment.
     pub fn row(&self, line: &[u8]) -> Option<Row> {
-        /// Offsets stand near the beginning.
-        const FAR: usize = 80;
         let first = line.iter().take_while(|c| MARKS[usize::from(**c)]).count();
-        let near = &line[..line.len().min(FAR)];
-        let begins = |at: &usize| MARKS[usize::from(near[at - 1])] && begins_offset(&line[*at..]);
-        let others = (first + 1..near.len()).filter(begins);
         let alone = begins_offset(&line[first..]).then(|| self.row_at(line, first, true)).flatten();
-        alone.or_else(|| others.into_iter().find_map(|at| self.row_at(line, at, false)))
+        let mut at = first + 1;
+        let mut next = || {
+            let found = next_offset(line, at)?;
+            at = found + 1;
+            Some(found)
+        };
+        alone.or_else(|| std::iter::from_fn(&mut next).find_map(|at| self.row_at(line, at, false)))
     }
 
     /// The same with the offset at `start`; where other things are before it, it must be marked and fit.
@@ -174,6 +175,25 @@ static MARKS: [bool; 256] = {
 fn begins_offset(text: &[u8]) -> bool {
     let digits = text.strip_prefix(b"0x").unwrap_or(text);
     digits.first_chunk::<4>().is_some_and(|digits| digits.iter().all(u8::is_ascii_hexdigit))
+}
+
+/// Where the next offset may begin, from `at` on: behind a mark. Most places are passed by fours: where one of the
+/// four digits would be is none.
+fn next_offset(line: &[u8], mut at: usize) -> Option<usize> {
+    /// Offsets stand near the beginning.
+    const FAR: usize = 80;
+    while at < FAR {
+        let digits: &[u8; 4] = line.get(at..)?.first_chunk()?;
+        let other = |place: &usize| !digits[*place].is_ascii_hexdigit();
+        match (0..digits.len()).rev().find(other) {
+            // An x may be the second one: `0x0010`.
+            Some(place @ 2..) if digits[place] == b'x' => at += place - 1,
+            Some(place) if place != 1 || digits[place] != b'x' => at += place + 1,
+            _ if MARKS[usize::from(line[at - 1])] && begins_offset(&line[at..]) => return Some(at),
+            _ => at += 1,
+        }
+    }
+    None
 }
 
 /// A number for what stands before an offset: the same for the same letters and blanks, whatever digits are among
