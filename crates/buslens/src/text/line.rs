@@ -72,7 +72,7 @@ pub struct Scan {
 }
 
 /// Where a line begins.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Start {
     pub from: usize,
     /// What comes before was read already: here are bytes.

@@ -247,21 +247,22 @@ impl Reader {
             self.end_list(sink);
             return self.end_columns(sink);
         }
-        let row = if self.long { None } else { self.dump.row(line) };
-        if row.is_none() && self.dump.ends(line) {
+        let whole = !self.long && quote == 0 && self.form.marks.is_none() && self.form.flow.is_none();
+        let alike = whole && self.alike.read(line, &mut self.scan);
+        let row = if self.long || alike { None } else { self.dump.row(line) };
+        if row.is_none() && !alike && self.dump.ends(line) {
             return;
         }
         let marked = self.form.marks.as_ref().and_then(|marks| marks.bytes_from(line));
         let begins = row.map_or(0, |row| row.from).max(marked.unwrap_or(0));
         let words = row.map(|row| row.words);
-        let start = Start { from: begins.max(quote), in_row: begins > 0 };
-        let whole = start == Start::default() && !self.long && self.form.flow.is_none();
         match words {
+            _ if alike => {}
             Some(Words::Octal) => self.scan.read_octal(line, begins),
-            _ if whole && self.alike.read(line, &mut self.scan) => {}
             _ => {
+                let start = Start { from: begins.max(quote), in_row: begins > 0 };
                 self.scan.read(line, start, self.form.numbers);
-                if whole {
+                if whole && row.is_none() {
                     self.alike.learn(line, &self.scan);
                 }
             }

@@ -9,6 +9,7 @@
 use super::{Numbers, Scan, Style};
 use crate::field::Span;
 use crate::text::characters::{DIGITS, is_bits, is_digit, separator};
+use crate::text::dump::has_offset;
 
 /// The patterns of a text.
 #[derive(Debug, Default)]
@@ -28,8 +29,9 @@ struct Pattern {
     time: Option<Span>,
     /// The bytes of numbers in it that may be others.
     numbers: Vec<usize>,
-    /// What stands between two bytes.
-    gap: Vec<u8>,
+    /// What stands between two bytes: how much, and the first and the last of it.
+    gap: usize,
+    between: [u8; 2],
     /// What stands behind the last one.
     tail: Vec<u8>,
     scan: Scan,
@@ -85,7 +87,7 @@ impl Pattern {
             return None;
         }
         let (before, tail) = (&line[..run.span.from], &line[run.span.to..]);
-        let gap = &line[run.second_at - run.gap..run.second_at];
+        let (gap, between) = (run.gap, [line[run.second_at - run.gap], line[run.second_at - 1]]);
         let ends = tail.iter().all(|c| c.is_ascii_whitespace() || matches!(c, b']' | b')' | b'}' | b'>'));
         // What could be one number with the first byte.
         let apart = match before {
@@ -94,13 +96,13 @@ impl Pattern {
             [] => true,
         };
         // A date may go on as a time.
-        let date = scan.time_place.is_some_and(|time| time.to + 4 > run.span.from) && gap[0] != b' ';
+        let date = scan.time_place.is_some_and(|time| time.to + 4 > run.span.from) && between[0] != b' ';
         let other = scan.runs.iter().rev().nth(1).map(|other| &before[other.span.to..]);
         let joins = other.is_some_and(|between| separator(between).is_some());
         // Others with so many bytes may be shown as characters behind them, and a backslash makes bytes of characters.
         let others = scan.runs.iter().filter(|run| run.len() >= SHORTEST).count() > 1
             || before.iter().any(|c| matches!(*c, HOLE | b'\\'));
-        if !(ends && apart) || date || joins || others || gap[0] == b'#' {
+        if !(ends && apart) || date || joins || others || between[0] == b'#' || has_offset(line) {
             return None;
         }
         let mut head = before.to_vec();
@@ -118,54 +120,56 @@ impl Pattern {
             at += count.max(1);
         }
         let numbers = (0..run.first).filter(|at| head[scan.places[*at].from] == HOLE).collect();
-        let (gap, tail) = (gap.to_vec(), tail.to_vec());
-        Some(Self { head, time, numbers, gap, tail, scan: scan.clone() })
+        Some(Self { head, time, numbers, gap, between, tail: tail.to_vec(), scan: scan.clone() })
     }
 
     fn read(&self, line: &[u8], scan: &mut Scan) -> bool {
-        let Self { head, gap, tail, .. } = self;
+        let Self { head, gap, between, tail, .. } = self;
         let Some((before, bytes)) = line.split_at_checked(head.len()) else { return false };
-        let same = |(a, b): (&u8, &u8)| if *a == HOLE { is_digit(*b) } else { a == b };
-        let Some(bytes) = bytes.strip_suffix(tail.as_slice()).filter(|_| head.iter().zip(before).all(same))
-        else {
+        let other = |(a, b): (&u8, &u8)| if *a == HOLE { !is_digit(*b) } else { a != b };
+        if head.iter().zip(before).any(other) || !(tail.is_empty() || bytes.ends_with(tail)) {
             return false;
-        };
-        let (step, whole) = (2 + gap.len(), bytes.len() + gap.len());
+        }
+        let length = bytes.len() - tail.len();
+        let (step, whole) = (2 + gap, length + gap);
         if whole % step != 0 || whole / step < SHORTEST {
             return false;
         }
-        let time = self.time.map(|time| (scan.time_at(line, time.from), time.to));
-        let time = match time {
-            Some((Some(found), to)) if found.to == to => Some(found.micros),
-            Some(_) => return false,
+        let time = match self.time {
+            Some(time) => match scan.time_at(line, time.from).filter(|found| found.to == time.to) {
+                Some(found) => Some(found.micros),
+                None => return false,
+            },
             None => None,
         };
-        let digits = |pair: &[u8]| [DIGITS[usize::from(pair[0])], DIGITS[usize::from(pair[1])]];
         scan.like(&self.scan);
-        let run = scan.runs.last_mut().expect("a pattern has its bytes");
-        let (first, from) = (run.first, head.len());
-        scan.hex.truncate(first);
-        scan.places.truncate(first);
-        let (mut all, mut padded) = (0, false);
-        scan.hex.extend(bytes.chunks(step).map(|byte| {
+        let Scan { hex, places, runs, .. } = scan;
+        let Some(run) = runs.last_mut() else { return false };
+        hex.truncate(run.first);
+        places.truncate(run.first);
+        let digits = |byte: &[u8]| [DIGITS[usize::from(byte[0])], DIGITS[usize::from(byte[1])]];
+        let (count, from, first) = (whole / step, head.len(), run.first);
+        let (mut good, mut padded) = (true, false);
+        let (last, others) = (&bytes[length - 2..], bytes[..length].chunks_exact(step));
+        hex.extend(others.map(|byte| {
             let [high, low] = digits(byte);
-            all |= high | low;
+            good &= ((high | low) < 16) & (byte[2] == between[0]) & (byte[step - 1] == between[1]);
             padded |= high == 0;
             high << 4 | low
         }));
-        let between = bytes.chunks_exact(step).all(|byte| byte[2..] == **gap);
-        if all > 15 || !between {
+        let [high, low] = digits(last);
+        if !good || (high | low) > 15 {
             return false;
         }
-        scan.places.extend((0..whole / step).map(|nth| Span::new(from + nth * step, from + nth * step + 2)));
-        let count = whole / step;
-        (run.end, run.last, run.span.to) = (first + count, first + count - 1, from + bytes.len());
-        (run.tokens, run.since, run.padded) = (count, count, padded);
-        scan.time = time;
+        hex.push(high << 4 | low);
+        places.extend((0..count).map(|nth| Span::new(from + nth * step, from + nth * step + 2)));
+        (run.end, run.last, run.span.to) = (first + count, first + count - 1, from + length);
+        (run.tokens, run.since, run.padded) = (count, count, padded | (high == 0));
         for at in &self.numbers {
-            let [high, low] = digits(scan.places[*at].of(line));
-            scan.hex[*at] = high << 4 | low;
+            let [high, low] = digits(places[*at].of(line));
+            hex[*at] = high << 4 | low;
         }
+        scan.time = time;
         true
     }
 }
