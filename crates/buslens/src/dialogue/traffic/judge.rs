@@ -446,9 +446,10 @@ impl Traffic {
     fn is_in_conversation(&self, one: &Weak, own: &[u8], gone: &HashSet<u32>) -> bool {
         let index = one.entry as usize;
         let entry = &self.entries[index];
-        // Columns meet those beside them; the same one may be among them twice.
+        // Columns meet those beside them, and what is proven; the same one may be among them twice.
         let beside = |other: &Entry| {
-            !one.facts.column || (other.line == entry.line && bytes(other, &self.data) != own)
+            let fits = other.line == entry.line || other.verdict == Verdict::Right;
+            !one.facts.column || (fits && bytes(other, &self.data) != own)
         };
         let near = |other: &&(u32, &Entry)| {
             let same_port = other.1.port == entry.port;
