@@ -354,5 +354,5 @@ static HANDSHAKE: Spec = Spec::new("handshake", "Handshake")
 
 static CONTENT: Spec = Spec::new("content", "Content").note("What is written.");
 
-static MORE: Spec = Spec::new("more", "Further ones")
-    .note("What is written to those behind the first, in the same telegram.");
+static MORE: Spec =
+    Spec::new("more", "More in the same telegram").note("What those that follow the first are set to.");
