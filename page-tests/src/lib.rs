@@ -156,9 +156,12 @@ impl Page {
 
     /// Pastes `text` where nothing is typed, which puts it in the place of the input.
     pub async fn paste(&self, text: &str) -> Result {
-        let script = "document.activeElement?.blur(); const data = new DataTransfer(); \
-                      data.setData('text', arguments[0]); document.body.dispatchEvent(new ClipboardEvent('paste', \
-                      { clipboardData: data, bubbles: true, cancelable: true }))";
+        // Firefox keeps from the page what a script puts into such an event as it is made.
+        let script = "document.activeElement?.blur(); const clipboardData = new DataTransfer(); \
+                      clipboardData.setData('text', arguments[0]); \
+                      const event = new ClipboardEvent('paste', { bubbles: true, cancelable: true }); \
+                      Object.defineProperty(event, 'clipboardData', { value: clipboardData }); \
+                      document.body.dispatchEvent(event)";
         self.driver.execute(script, vec![json!(text)]).await?;
         self.settle().await
     }
