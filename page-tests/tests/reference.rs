@@ -151,9 +151,11 @@ async fn every_chapter_opens() -> Result {
     for chapter in 1..chapters {
         let click = format!("document.querySelectorAll('.contents a')[{chapter}].click()");
         page.driver.execute(&click, vec![]).await?;
-        page.until(&format!(".contents :is(li li:nth-child({}), li) [aria-current]", 2 - chapter % 2), "").await?;
+        page.until(&format!(".contents :is(li li:nth-child({}), li) [aria-current]", 2 - chapter % 2), "")
+            .await?;
         page.wait_for("#found-0").await?;
-        let rows: usize = page.text(".reference .tools .end").await?.split(' ').next().unwrap().parse().unwrap();
+        let rows: usize =
+            page.text(".reference .tools .end").await?.split(' ').next().unwrap().parse().unwrap();
         assert!(rows > 10, "{rows}");
     }
     page.close().await
@@ -165,8 +167,12 @@ async fn a_telegram_is_laid_out() -> Result {
     let page = Page::open_at("#/learn?place=reference.modbus.telegrams.16", DESKTOP, false).await?;
     page.until(".topic h3", "Write multiple registers").await?;
     let labels = page.texts(".topic .telegram:nth-of-type(1) .diagram .label").await?;
-    assert_eq!(labels[..6], ["Unit", "Function", "Start", "Quantity", "Byte count", "Values"].map(str::to_owned));
-    page.until(".topic .example", "For example: Write to unit 1: Universal channel 6 = 123.456, good.").await?;
+    assert_eq!(
+        labels[..6],
+        ["Unit", "Function", "Start", "Quantity", "Byte count", "Values"].map(str::to_owned)
+    );
+    page.until(".topic .example", "For example: Write to unit 1: Universal channel 6 = 123.456, good.")
+        .await?;
     assert_eq!(page.bytes_in(".topic .example").await?, "01 10 00 D7 00 03 06 00 80 42 F6 E9 79 28 15");
     assert_eq!(page.accessibility().await?, [""; 0]);
     page.picture("reference-telegram-light").await?;

@@ -39,7 +39,8 @@ fn every_telegram_is_laid_out() {
                         };
                         // Behind a list nobody knows.
                         let list = matches!(row.size, Size::Each(_));
-                        next = next.filter(|next| !list || layout.rows.iter().any(|row| row.offset == Some(*next)));
+                        next = next
+                            .filter(|next| !list || layout.rows.iter().any(|row| row.offset == Some(*next)));
                     }
                 }
             }
@@ -76,7 +77,8 @@ fn every_register_and_parameter_is_there() {
             .collect();
         for parameter in profile.parameters() {
             let there = registers.iter().any(|register| {
-                (register.from, register.subindex, register.id) == (parameter.address, parameter.subindex, parameter.id)
+                (register.from, register.subindex, register.id)
+                    == (parameter.address, parameter.subindex, parameter.id)
                     && register.spec == &parameter.spec
             });
             assert!(there, "{}: {}", profile.key, parameter.spec.label);
@@ -128,7 +130,9 @@ fn every_code_is_there() {
     }
     let errors = of(Book::Profibus, Chapter::Codes);
     for (refusal, name) in profibus::Refusal::all() {
-        assert!(errors.iter().any(|item| item.number == refusal.number().to_string() && item.label == name.label));
+        assert!(
+            errors.iter().any(|item| item.number == refusal.number().to_string() && item.label == name.label)
+        );
     }
 }
 
@@ -140,9 +144,9 @@ fn specs(profile: &'static Profile) -> Vec<&'static Spec> {
             _ => &[],
         };
         let written = area.access != Access::Read;
-        let parts = parts.iter().flat_map(move |part| {
-            std::iter::once(part.spec).chain(written.then_some(part.written))
-        });
+        let parts = parts
+            .iter()
+            .flat_map(move |part| std::iter::once(part.spec).chain(written.then_some(part.written)));
         std::iter::once(&area.spec).chain(parts)
     });
     parameters.chain(areas).collect()
@@ -161,7 +165,9 @@ fn every_draft_builds_a_telegram() {
     for item in items() {
         for (doing, link) in item.drafts() {
             drafts += 1;
-            let told = || format!("{} {:?}, {} {}: {:?}", item.book.key(), doing, item.number, item.label, link.pairs());
+            let told = || {
+                format!("{} {:?}, {} {}: {:?}", item.book.key(), doing, item.number, item.label, link.pairs())
+            };
             let bytes = match built(&link) {
                 Ok(bytes) => bytes,
                 Err(why) => {
@@ -207,7 +213,9 @@ fn things_are_found_as_people_type_them() {
     let items = items();
     let first = |typed: &str| {
         let found = find(&items, typed);
-        found.first().map_or(String::new(), |item| format!("{} {} {}", item.book.key(), item.number, item.label))
+        found
+            .first()
+            .map_or(String::new(), |item| format!("{} {} {}", item.book.key(), item.number, item.label))
     };
     let mut wrong = Vec::new();
     for (typed, wanted) in [
@@ -267,7 +275,8 @@ fn vectors() -> Vec<PathBuf> {
 #[test]
 fn the_gallery_has_every_printed_telegram() {
     let samples = gallery();
-    let printed = |manual: &str| samples.iter().filter(|sample| sample.printed && sample.manual == manual).count();
+    let printed =
+        |manual: &str| samples.iter().filter(|sample| sample.printed && sample.manual == manual).count();
     assert_eq!(printed("Memograph M RSG45 Modbus supplement"), 71);
     assert_eq!(printed("KEB COMBIVERT F5 PROFIBUS-DP operator"), 15);
     let mut misprinted = 0;
@@ -294,7 +303,8 @@ fn the_gallery_has_every_printed_telegram() {
     }
     assert_eq!(misprinted, 13 + 2);
     // An answer stands behind its request.
-    let places: Vec<_> = samples.iter().filter(|sample| sample.section == "2.6.1" && sample.printed).collect();
+    let places: Vec<_> =
+        samples.iter().filter(|sample| sample.section == "2.6.1" && sample.printed).collect();
     let places: Vec<&str> = places.iter().map(|sample| sample.place.as_str()).collect();
     assert_eq!(places, ["request 1", "response 1", "request 2", "response 2"]);
 }
@@ -304,16 +314,23 @@ fn the_gallery_has_every_printed_telegram() {
 fn the_gallery_has_one_of_each_kind() {
     let said: Vec<_> = gallery().iter().filter_map(Sample::said).collect();
     for kind in modbus::KINDS {
-        let there = said
-            .iter()
-            .any(|said| said.function == Some(kind.function) && said.direction == kind.direction && !said.is_exception);
+        let there = said.iter().any(|said| {
+            said.function == Some(kind.function) && said.direction == kind.direction && !said.is_exception
+        });
         assert!(there, "{} {:?}", kind.spec.label, kind.direction);
     }
     for kind in profibus::KINDS.iter().chain(&profibus::OTHER_KINDS[..2]) {
         let there = said.iter().any(|said| said.kind == kind.spec.label && said.direction == kind.direction);
         assert!(there, "{} {:?}", kind.spec.label, kind.direction);
     }
-    for key in ["modbus-rtu", "modbus-tcp", "modbus-ascii", "modbus-pdu", "profibus-fdl", "profibus-parameter-channel"] {
+    for key in [
+        "modbus-rtu",
+        "modbus-tcp",
+        "modbus-ascii",
+        "modbus-pdu",
+        "profibus-fdl",
+        "profibus-parameter-channel",
+    ] {
         assert!(said.iter().any(|said| said.protocol.key == key), "{key}");
     }
     assert!(PROTOCOLS.len() > 6);

@@ -69,9 +69,9 @@ impl Sample {
         let find = |key: &str| head.lines().find_map(|line| line.strip_prefix(key)?.strip_prefix(": "));
         let title = head.trim_start().lines().next()?;
         // Whether it is misprinted is said with the slip.
-        let title = [" (as printed", ", with a misprint"].iter().fold(title, |title, mark| {
-            title.split_once(mark).map_or(title, |(before, _)| before)
-        });
+        let title = [" (as printed", ", with a misprint"]
+            .iter()
+            .fold(title, |title, mark| title.split_once(mark).map_or(title, |(before, _)| before));
         let (source, own) = match find("source")?.split_once("; ") {
             Some((source, own)) => (source, own.contains("of our own")),
             None => (find("source")?, false),
@@ -89,7 +89,8 @@ impl Sample {
             place: parts.get(at + 1..).unwrap_or_default().join(", "),
             printed: !own,
             hex: find("hex")?.to_owned(),
-            before: find("before").map_or(Vec::new(), |before| before.split('|').map(|it| it.trim().to_owned()).collect()),
+            before: find("before")
+                .map_or(Vec::new(), |before| before.split('|').map(|it| it.trim().to_owned()).collect()),
             device: find("device").and_then(Profile::of),
             protocol: find("as").and_then(Protocol::of),
             slip: slip.map(|(what, right)| (what.to_owned(), right.to_owned())),
@@ -138,7 +139,9 @@ impl Sample {
             (None, known) => known.map(|it| Slip { what: it.slips.to_owned(), right: it.right.to_vec() }),
         };
         let said = match &misprint {
-            Some(slip) => self.read(&hex(&slip.right)).map_or_else(|| detail.meaning(), |(_, right)| right.meaning()),
+            Some(slip) => {
+                self.read(&hex(&slip.right)).map_or_else(|| detail.meaning(), |(_, right)| right.meaning())
+            }
             None => detail.meaning(),
         };
         let kind = match detail.function {

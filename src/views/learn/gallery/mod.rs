@@ -87,7 +87,8 @@ impl Narrowed {
             "printed" => sample.printed,
             _ => true,
         };
-        let function = self.function.is_empty() || said.function.is_some_and(|own| own.to_string() == self.function);
+        let function =
+            self.function.is_empty() || said.function.is_some_and(|own| own.to_string() == self.function);
         manual && kind && function && self.says(sample, said)
     }
 
@@ -98,7 +99,8 @@ impl Narrowed {
         if typed.is_empty() || typed.len() > 1 && bytes.contains(&typed) {
             return true;
         }
-        let text = format!("{} {} {} {} {}", said.sentence, said.kind, sample.title, sample.section, sample.place);
+        let text =
+            format!("{} {} {} {} {}", said.sentence, said.kind, sample.title, sample.section, sample.place);
         let text = text.to_lowercase();
         typed.split_whitespace().all(|word| text.contains(word))
     }
@@ -148,9 +150,9 @@ pub fn Gallery() -> impl IntoView {
     let manuals = MANUALS.map(|(key, _, label)| (key, label)).into_iter().chain([(STANDARDS, "Standards")]);
     let manuals = manuals.map(|(key, label)| option(|it| &it.manual, key.to_owned(), label.to_owned()));
     let kinds = KINDS.map(|(key, label)| option(|it| &it.kind, key.to_owned(), label.to_owned()));
-    let functions = functions.into_iter().map(|(code, label)| {
-        option(|it| &it.function, code.to_string(), format!("{code}: {label}"))
-    });
+    let functions = functions
+        .into_iter()
+        .map(|(code, label)| option(|it| &it.function, code.to_string(), format!("{code}: {label}")));
     let clear = move |_| state.go_to(Part::Gallery, String::new());
     view! {
         <section class="gallery" aria-label="Telegrams">
@@ -224,7 +226,8 @@ fn groups(found: &[usize]) -> Vec<AnyView> {
             manual = &sample.manual;
             shown.push(view! { <h4 class="manual">{manual}</h4> }.into_any());
         }
-        let title = SECTIONS.iter().find(|(section, _)| *section == sample.section && key_of(sample) == MANUALS[0].0);
+        let title =
+            SECTIONS.iter().find(|(section, _)| *section == sample.section && key_of(sample) == MANUALS[0].0);
         let rows = group.iter().map(|at| row(&SAMPLES[*at].0, &SAMPLES[*at].1)).collect_view();
         let section = sample.section.clone();
         let heading = (!section.is_empty()).then(|| {

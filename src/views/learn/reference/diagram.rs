@@ -129,7 +129,9 @@ pub fn BitDiagram(spec: &'static Spec) -> impl IntoView {
         let (from, last) = (part.from, part.from + part.count - 1);
         let place = if from == last { format!("bit {from}") } else { format!("bits {last} to {from}") };
         let hex = part.count >= 8;
-        let shown = move |value: u64| if hex { hex_value(value, (part.count as usize).div_ceil(8)) } else { value.to_string() };
+        let shown = move |value: u64| {
+            if hex { hex_value(value, (part.count as usize).div_ceil(8)) } else { value.to_string() }
+        };
         let names = part.names.iter().filter(|name| !name.label.is_empty()).map(|name| {
             view! {
                 <li>

@@ -77,7 +77,10 @@ fn of_register(item: &Item, register: &Register) -> AnyView {
         pair("Unit", register.unit().to_owned()),
         pair("Allowed", register.limits()),
         pair("A client may", register.allowed().to_owned()),
-        pair("Software", if register.since.is_empty() { String::new() } else { format!("from {} on", register.since) }),
+        pair(
+            "Software",
+            if register.since.is_empty() { String::new() } else { format!("from {} on", register.since) },
+        ),
     ]);
     let parts = register.parts();
     let parts = (!parts.is_empty()).then(|| {
@@ -122,7 +125,8 @@ fn of_code(item: &Item, code: &Code) -> AnyView {
 }
 
 pub fn source(source: &'static str) -> Option<AnyView> {
-    (!source.is_empty()).then(|| view! { <p class="note">"Source: " <cite>{source} "."</cite></p> }.into_any())
+    (!source.is_empty())
+        .then(|| view! { <p class="note">"Source: " <cite>{source} "."</cite></p> }.into_any())
 }
 
 /// What single values and bits of a number mean.

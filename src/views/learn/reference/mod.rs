@@ -54,12 +54,16 @@ impl Place {
 
     /// The address of it.
     fn href(&self) -> String {
-        href(View::Learn, &Link { place: format!("{}.{}", Part::Reference.key(), self.text()), ..Link::default() })
+        href(
+            View::Learn,
+            &Link { place: format!("{}.{}", Part::Reference.key(), self.text()), ..Link::default() },
+        )
     }
 
     /// What there is to choose from.
     fn found(&self) -> Vec<Arc<Item>> {
-        let within = |item: &&Arc<Item>| self.chapter.is_none_or(|chapter| chapter == (item.book, item.chapter));
+        let within =
+            |item: &&Arc<Item>| self.chapter.is_none_or(|chapter| chapter == (item.book, item.chapter));
         match self.chapter {
             None => find(&ITEMS, &self.typed),
             Some(_) => find(&ITEMS.iter().filter(within).cloned().collect::<Vec<_>>(), &self.typed),
@@ -197,7 +201,8 @@ struct Found(Vec<Arc<Item>>);
 
 impl PartialEq for Found {
     fn eq(&self, other: &Self) -> bool {
-        self.0.len() == other.0.len() && self.0.iter().zip(&other.0).all(|(one, other)| Arc::ptr_eq(one, other))
+        self.0.len() == other.0.len()
+            && self.0.iter().zip(&other.0).all(|(one, other)| Arc::ptr_eq(one, other))
     }
 }
 
@@ -312,11 +317,16 @@ mod tests {
 
     #[test]
     fn a_place_leads_back() {
-        for place in ["", "modbus.telegrams", "modbus.telegrams.16", "keb-f5-modbus.registers..fb.05", "...set speed"] {
+        for place in
+            ["", "modbus.telegrams", "modbus.telegrams.16", "keb-f5-modbus.registers..fb.05", "...set speed"]
+        {
             assert_eq!(Place::of(place).text(), place);
         }
         assert_eq!(Place::of("modbus.telegrams.16").open().unwrap().label, "Write multiple registers");
-        assert_eq!(Place::of("keb-f5-modbus.registers.2050h").open().unwrap().label, "Inverter parameter 0050h");
+        assert_eq!(
+            Place::of("keb-f5-modbus.registers.2050h").open().unwrap().label,
+            "Inverter parameter 0050h"
+        );
         assert!(Place::of("nothing.at.all").open().is_none());
     }
 

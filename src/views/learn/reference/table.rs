@@ -49,7 +49,9 @@ pub fn Table(
     };
     let at = Memo::new(move |_| {
         let chosen = chosen.get()?;
-        let same = |item: &Arc<Item>| item.key == chosen.key && (item.book, item.chapter) == (chosen.book, chosen.chapter);
+        let same = |item: &Arc<Item>| {
+            item.key == chosen.key && (item.book, item.chapter) == (chosen.book, chosen.chapter)
+        };
         rows.with(|rows| rows.iter().position(same))
     });
     // Other rows begin at the top; what is chosen is in sight.

@@ -23,7 +23,8 @@ pub fn TopicPage(item: Arc<Item>) -> impl IntoView {
     let About::Telegram(topic) = item.about.clone() else { return ().into_any() };
     let carriers = topic.carriers();
     let carrier = RwSignal::new(0_usize);
-    let names = carriers.iter().enumerate().map(|(at, it)| (at, carrier_name(it).to_owned())).collect::<Vec<_>>();
+    let names =
+        carriers.iter().enumerate().map(|(at, it)| (at, carrier_name(it).to_owned())).collect::<Vec<_>>();
     let several = names.len() > 1;
     let value = Signal::derive(move || carrier.get());
     let choose = Callback::new(move |at| carrier.set(at));
@@ -130,7 +131,12 @@ fn neighbours(item: &Arc<Item>) -> Vec<AnyView> {
 }
 
 /// A telegram of the gallery that is laid out so.
-fn example(item: &Item, topic: &Topic, layout: &Layout, carrier: &Protocol) -> Option<(&'static Sample, &'static Said)> {
+fn example(
+    item: &Item,
+    topic: &Topic,
+    layout: &Layout,
+    carrier: &Protocol,
+) -> Option<(&'static Sample, &'static Said)> {
     if layout.title.contains(',') && topic.function().is_some() {
         return None;
     }
@@ -139,7 +145,11 @@ fn example(item: &Item, topic: &Topic, layout: &Layout, carrier: &Protocol) -> O
             Some(function) if function >= 0x80 => said.is_exception,
             Some(0) => said.kind.contains("not known"),
             Some(function) => said.function == Some(function) && !said.is_exception,
-            None => said.kind == item.label || said.kind.starts_with(&item.number) || said.protocol.label == item.label,
+            None => {
+                said.kind == item.label
+                    || said.kind.starts_with(&item.number)
+                    || said.protocol.label == item.label
+            }
         };
         same && said.direction == layout.direction && said.protocol.key == carrier.key && !said.is_faulty
     };
@@ -185,7 +195,9 @@ fn Fields(rows: Vec<Row>) -> impl IntoView {
             Some(offset) if each > 1 => format!("{offset} to {}", offset + each - 1),
             Some(offset) => offset.to_string(),
         };
-        let allowed = spec.limits.map(|(from, to)| if from == to { from.to_string() } else { format!("{from} to {to}") });
+        let allowed = spec
+            .limits
+            .map(|(from, to)| if from == to { from.to_string() } else { format!("{from} to {to}") });
         let here = row.chosen.filter(|_| !row.size.is_around()).map(|(value, chosen)| {
             if chosen.label.is_empty() { String::new() } else { format!(" Here {value}: {}.", chosen.label) }
         });

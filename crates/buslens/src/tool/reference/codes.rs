@@ -49,7 +49,9 @@ impl Code {
         match self.draft {
             Draft::None => None,
             Draft::Task(task, filled) => {
-                let entry = filled.and_then(|(spec, raw)| Some((path_of(&form_of(&mut task.draft()), spec)?, text_of(spec, raw))));
+                let entry = filled.and_then(|(spec, raw)| {
+                    Some((path_of(&form_of(&mut task.draft()), spec)?, text_of(spec, raw)))
+                });
                 let doing = if task.access == Access::Write { Doing::Write } else { Doing::Read };
                 Some((doing, task_link(task, None, entry.into_iter().collect())))
             }
@@ -270,7 +272,9 @@ fn choices(codes: &mut Codes, kind: &'static modbus::Kind) {
     }
     let unknown = chosen(u64::MAX, width).map(|(_, spec)| spec);
     for value in 0..=0xFF {
-        let Some((_, spec)) = chosen(value, width).filter(|(_, spec)| Some(*spec) != unknown) else { continue };
+        let Some((_, spec)) = chosen(value, width).filter(|(_, spec)| Some(*spec) != unknown) else {
+            continue;
+        };
         let draft = Draft::Telegram(Offer::Telegram(kind), row.spec, value);
         let source = if spec.source.is_empty() { kind.spec.source } else { spec.source };
         let code = Code { of: row.spec.label.to_owned(), note: spec.note, source, draft };
@@ -309,7 +313,9 @@ fn profibus_codes(codes: &mut Codes) {
 fn device_codes(codes: &mut Codes, profile: &'static Profile) {
     let function = profile.functions.first().copied().unwrap_or(3);
     if !profile.functions.is_empty() {
-        for name in modbus::exceptions().iter().filter(|name| profile.common_exceptions.contains(&(name.value as u8))) {
+        for name in
+            modbus::exceptions().iter().filter(|name| profile.common_exceptions.contains(&(name.value as u8)))
+        {
             exception(codes, name, function, modbus::OTHER_KINDS[0].spec.source);
         }
     }
@@ -357,12 +363,16 @@ fn device_codes(codes: &mut Codes, profile: &'static Profile) {
                     let specs = read.map_or(Vec::new(), |new| specs_of(new(&settings)));
                     let read = draft_of(profile, target, false);
                     for spec in specs {
-                        codes.add_spec(&format!("{}: {}", area.spec.label, spec.label), spec, |raw| read(spec, raw));
+                        codes.add_spec(&format!("{}: {}", area.spec.label, spec.label), spec, |raw| {
+                            read(spec, raw)
+                        });
                     }
                 }
                 for spec in write.map_or(Vec::new(), |new| specs_of(new(&present(false)))) {
                     let write = draft_of(profile, target, true);
-                    codes.add_spec(&format!("{}: {}", area.spec.label, spec.label), spec, |raw| write(spec, raw));
+                    codes.add_spec(&format!("{}: {}", area.spec.label, spec.label), spec, |raw| {
+                        write(spec, raw)
+                    });
                 }
             }
             Content::Value | Content::Mapped => {}
@@ -378,7 +388,11 @@ fn profibus_refusals(codes: &mut Codes) {
 }
 
 /// What can be asked of `target` with one of its values: to write it where `written`, or else to read what has it.
-fn draft_of(profile: &'static Profile, target: Target, written: bool) -> impl Fn(&'static Spec, u64) -> Draft {
+fn draft_of(
+    profile: &'static Profile,
+    target: Target,
+    written: bool,
+) -> impl Fn(&'static Spec, u64) -> Draft {
     move |spec, raw| {
         let write = profile.task(target, Access::Write).filter(|_| written);
         let read = profile.task(target, Access::Read);

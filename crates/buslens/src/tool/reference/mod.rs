@@ -92,7 +92,9 @@ impl Chapter {
         match (self, book) {
             (Self::Telegrams, _) => "Telegrams",
             (Self::Registers, Book::Device(Profile { ident: Some(_), .. })) => "Parameters",
-            (Self::Registers, Book::Device(Profile { hex_addresses: true, .. })) => "Registers and parameters",
+            (Self::Registers, Book::Device(Profile { hex_addresses: true, .. })) => {
+                "Registers and parameters"
+            }
             (Self::Registers, _) => "Registers",
             (Self::Codes, _) => "Codes",
         }
@@ -314,8 +316,21 @@ struct Word {
 impl Word {
     fn of(text: &str) -> Self {
         const KINDS: &[&str] = &[
-            "function", "fc", "sap", "register", "registers", "address", "index", "parameter", "code", "error",
-            "exception", "modbus", "profibus", "channel", "status",
+            "function",
+            "fc",
+            "sap",
+            "register",
+            "registers",
+            "address",
+            "index",
+            "parameter",
+            "code",
+            "error",
+            "exception",
+            "modbus",
+            "profibus",
+            "channel",
+            "status",
         ];
         let text = text.trim_matches([',', ';', ':', '?', '"', '“', '”']).to_owned();
         let plain = fold(&text);

@@ -255,35 +255,43 @@ fn area_item(
         Content::Value if area.in_sets => "16 or 32 bits".to_owned(),
         Content::Value => kind(&area.spec, width),
     };
-    item(Register {
-        profile,
-        target: Target::Area(area),
-        block,
-        id: "",
-        from,
-        to,
-        subindex: None,
-        spec: &area.spec,
-        kind,
-        since: "",
-    }, label, area.also)
+    item(
+        Register {
+            profile,
+            target: Target::Area(area),
+            block,
+            id: "",
+            from,
+            to,
+            subindex: None,
+            spec: &area.spec,
+            kind,
+            since: "",
+        },
+        label,
+        area.also,
+    )
 }
 
 fn of_parameter(profile: &'static Profile, parameter: &'static Parameter) -> Item {
     let width = parameter.length.map_or(String::new(), |length| kind(&parameter.spec, length));
     let label = parameter.spec.label.to_owned();
-    item(Register {
-        profile,
-        target: Target::Parameter(parameter),
-        block: None,
-        id: parameter.id,
-        from: parameter.address,
-        to: parameter.address,
-        subindex: parameter.subindex,
-        spec: &parameter.spec,
-        kind: width,
-        since: parameter.since,
-    }, label, parameter.also)
+    item(
+        Register {
+            profile,
+            target: Target::Parameter(parameter),
+            block: None,
+            id: parameter.id,
+            from: parameter.address,
+            to: parameter.address,
+            subindex: parameter.subindex,
+            spec: &parameter.spec,
+            kind: width,
+            since: parameter.since,
+        },
+        label,
+        parameter.also,
+    )
 }
 
 fn item(register: Register, label: String, also: &str) -> Item {

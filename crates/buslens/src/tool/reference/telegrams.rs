@@ -70,7 +70,12 @@ impl Topic {
                     .iter()
                     .filter_map(|kind| {
                         let rows = carried(carrier, kind.pdu(&STANDARD))?;
-                        Some(Layout::new(direction_name(kind.direction), kind.direction, kind.spec.note, rows))
+                        Some(Layout::new(
+                            direction_name(kind.direction),
+                            kind.direction,
+                            kind.spec.note,
+                            rows,
+                        ))
                     })
                     .collect();
                 layouts.extend(other_layouts(carrier, kinds));
@@ -80,7 +85,12 @@ impl Topic {
                 .iter()
                 .map(|kind| {
                     let mut frame = Fdl::new(kind, &profibus::Settings::default());
-                    Layout::new(direction_name(kind.direction), kind.direction, kind.spec.note, guide(&mut frame))
+                    Layout::new(
+                        direction_name(kind.direction),
+                        kind.direction,
+                        kind.spec.note,
+                        guide(&mut frame),
+                    )
                 })
                 .collect(),
             Subject::Channel => channel_layouts(),
@@ -159,9 +169,9 @@ fn other_layouts(carrier: &Protocol, kinds: &[&'static modbus::Kind]) -> Vec<Lay
         let rows = carried(carrier, pdu).unwrap_or_default();
         layouts.push(Layout::new("CANopen, MEI type 13", Direction::Request, "", rows));
     }
-    let others = DIALECTS.iter().flat_map(|dialect: &&'static Dialect| {
-        dialect.kinds.iter().map(move |kind| (*dialect, *kind))
-    });
+    let others = DIALECTS
+        .iter()
+        .flat_map(|dialect: &&'static Dialect| dialect.kinds.iter().map(move |kind| (*dialect, *kind)));
     for (dialect, kind) in others.filter(|(_, kind)| kinds.iter().any(|own| own.function == kind.function)) {
         let Some(rows) = carried(carrier, kind.pdu(dialect)) else { continue };
         let title = format!("{}, where set so: {}", direction_name(kind.direction), dialect.label);
@@ -230,7 +240,14 @@ pub(super) fn items(book: Book) -> Vec<Item> {
     }
 }
 
-fn item(book: Book, key: String, number: String, label: &str, numbers: Vec<(u64, u64)>, topic: Topic) -> Item {
+fn item(
+    book: Book,
+    key: String,
+    number: String,
+    label: &str,
+    numbers: Vec<(u64, u64)>,
+    topic: Topic,
+) -> Item {
     Item {
         book,
         chapter: Chapter::Telegrams,
@@ -264,7 +281,14 @@ fn functions() -> Vec<Item> {
         let Spec { label, note, source, .. } = kind.spec;
         let code = if numbers.is_empty() { String::new() } else { code };
         let key = if numbers.is_empty() { key_of(label) } else { kind.function.to_string() };
-        item(Book::Modbus, key, number, label, numbers, Topic { subject: Subject::Function(kinds), code, note, source })
+        item(
+            Book::Modbus,
+            key,
+            number,
+            label,
+            numbers,
+            Topic { subject: Subject::Function(kinds), code, note, source },
+        )
     };
     groups.into_iter().map(of_group).collect()
 }
@@ -291,10 +315,11 @@ fn around() -> Vec<Item> {
             "Modbus over serial line V1.02, 2.5.2",
         ),
     ];
-    let of_frame = |(protocol, short, note, source): (&'static Protocol, &str, &'static str, &'static str)| {
-        let topic = Topic { subject: Subject::Around(protocol), code: "frame".to_owned(), note, source };
-        item(Book::Modbus, key_of(short), short.to_owned(), protocol.label, Vec::new(), topic)
-    };
+    let of_frame =
+        |(protocol, short, note, source): (&'static Protocol, &str, &'static str, &'static str)| {
+            let topic = Topic { subject: Subject::Around(protocol), code: "frame".to_owned(), note, source };
+            item(Book::Modbus, key_of(short), short.to_owned(), protocol.label, Vec::new(), topic)
+        };
     frames.into_iter().map(of_frame).collect()
 }
 
@@ -315,12 +340,26 @@ fn services() -> Vec<Item> {
             None if kind.spec.label == profibus::KINDS[0].spec.label => ("no SAP".to_owned(), Vec::new()),
             None => ("other".to_owned(), Vec::new()),
         };
-        let point = kind.sap.map_or(String::new(), |sap| format!("access point {sap} (SAP), {}", hex_value(sap.into(), 1)));
-        let code = if short == label { point } else { [short, &point].into_iter().filter(|it| !it.is_empty()).collect::<Vec<_>>().join(", ") };
-        item(Book::Profibus, key_of(label), number, label, numbers, Topic { subject: Subject::Service(kinds), code, note, source })
+        let point = kind
+            .sap
+            .map_or(String::new(), |sap| format!("access point {sap} (SAP), {}", hex_value(sap.into(), 1)));
+        let code = if short == label {
+            point
+        } else {
+            [short, &point].into_iter().filter(|it| !it.is_empty()).collect::<Vec<_>>().join(", ")
+        };
+        item(
+            Book::Profibus,
+            key_of(label),
+            number,
+            label,
+            numbers,
+            Topic { subject: Subject::Service(kinds), code, note, source },
+        )
     };
     let Spec { label, note, source, .. } = profibus::parameter_channel::REQUEST.spec;
-    let topic = Topic { subject: Subject::Channel, code: "the first 8 bytes of user data".to_owned(), note, source };
+    let topic =
+        Topic { subject: Subject::Channel, code: "the first 8 bytes of user data".to_owned(), note, source };
     let channel = item(Book::Profibus, key_of(label), "no SAP".to_owned(), label, Vec::new(), topic);
     std::iter::once(channel).chain(groups.into_iter().map(of_group)).collect()
 }
@@ -338,7 +377,12 @@ fn frames() -> Vec<Item> {
         (SD2, "SD2", "Frame with data of any length", "The usual frame: its length stands in it, twice."),
         (SD3, "SD3", "Frame with 8 bytes of data", "A frame whose data always have 8 bytes."),
         (SD4, "SD4", "Token", "Hands the right to ask to the next master. It has no checksum."),
-        (SC, "SC", "Short acknowledgement", "One byte: the request was taken, and there is nothing to answer."),
+        (
+            SC,
+            "SC",
+            "Short acknowledgement",
+            "One byte: the request was taken, and there is nothing to answer.",
+        ),
     ]
     .map(of_frame)
     .into_iter()
