@@ -11,6 +11,7 @@ mod offline;
 mod one_file;
 mod page;
 mod split;
+mod unused;
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -111,7 +112,7 @@ impl Compiled {
     fn read(name: &str, path: &Path) -> Result<Compiled, String> {
         let says = |error| format!("wasm-bindgen could not read {}: {error:#}", path.display());
         let parts = path.with_extension("parts");
-        let Split { main, later, link } = split::split(&read(path)?, &parts)?;
+        let Split { main, later, link } = split::split(&unused::without(&read(path)?)?, &parts)?;
         let mut output = Bindgen::new()
             .input_bytes(name, main)
             .out_name(name)

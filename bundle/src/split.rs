@@ -94,25 +94,46 @@ pub fn join(glue: &str, link: &str) -> Result<String, String> {
 
 /// A module without names of functions and the like, which nobody reads in a browser.
 fn without_custom_sections(wasm: &[u8]) -> Result<Vec<u8>, String> {
-    const HEADER: usize = 8;
     const CUSTOM: u8 = 0;
-    let broken = || "A part of the module is no wasm.".to_owned();
-    let mut kept = wasm.get(..HEADER).ok_or_else(broken)?.to_vec();
-    let mut rest = &wasm[HEADER..];
+    let kept = sections(wasm)?.into_iter().filter(|section| section.kind != CUSTOM);
+    Ok(kept.fold(wasm[..HEADER].to_vec(), |mut module, section| {
+        module.extend_from_slice(section.whole);
+        module
+    }))
+}
+
+/// How long the beginning of a module is, before its sections.
+pub const HEADER: usize = 8;
+
+/// A section of a module.
+pub struct Section<'a> {
+    pub kind: u8,
+    pub content: &'a [u8],
+    /// Kind and length included.
+    pub whole: &'a [u8],
+}
+
+/// What a module is made of, behind its header.
+pub fn sections(wasm: &[u8]) -> Result<Vec<Section<'_>>, String> {
+    let mut sections = Vec::new();
+    let mut rest = wasm.get(HEADER..).ok_or_else(broken)?;
     while let [kind, after @ ..] = rest {
         let (length, digits) = number(after).ok_or_else(broken)?;
-        let end = 1 + digits + length;
-        let section = rest.get(..end).ok_or_else(broken)?;
-        if *kind != CUSTOM {
-            kept.extend_from_slice(section);
-        }
+        let (start, end) = (1 + digits, 1 + digits + length);
+        let whole = rest.get(..end).ok_or_else(broken)?;
+        sections.push(Section { kind: *kind, content: &whole[start..], whole });
         rest = &rest[end..];
     }
-    Ok(kept)
+    Ok(sections)
+}
+
+/// What is said of a module that is none.
+pub fn broken() -> String {
+    "A part of the module is no wasm.".to_owned()
 }
 
 /// A number in LEB128, and how many bytes it takes.
-fn number(bytes: &[u8]) -> Option<(usize, usize)> {
+pub fn number(bytes: &[u8]) -> Option<(usize, usize)> {
     let mut value = 0_usize;
     for (at, byte) in bytes.iter().take(5).enumerate() {
         value |= usize::from(byte & 0x7F) << (7 * at);
