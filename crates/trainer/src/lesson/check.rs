@@ -2,10 +2,10 @@
 
 use buslens::field::{Field, Value, hex};
 use buslens::tool::log::{Log, Reading, decode_pasted};
-use buslens::tool::{Options, Report, Verdict, decode, steps};
+use buslens::tool::{Report, decode};
 
 use super::text::filled;
-use super::{Ask, Exercise, Lesson, Mistake, Place, Show, Statement, Step, field, names};
+use super::{Lesson, Mistake, Place, Show, Statement, Step, field, names};
 
 impl Lesson {
     /// What the library does not say so, or cannot do, in the order of the lines.
@@ -96,6 +96,11 @@ impl Step {
         }
     }
 
+    /// The same for a remark on telegram `index`, of which `own` is the field. What is not known stays as it is.
+    pub fn filled_at(&self, text: &str, report: &Report, index: usize, own: Option<&str>) -> String {
+        filled(text, report, index, own).unwrap_or_else(|_| text.to_owned())
+    }
+
     /// What the library says of what a statement names: all ways in which it may be written.
     fn says(&self, statement: &Statement, report: &Report) -> Result<Vec<String>, String> {
         if !self.log.is_empty() {
@@ -149,69 +154,6 @@ fn ways(field: &Field, bytes: &[u8]) -> Vec<String> {
     all.into_iter().flatten().filter(|way| !way.is_empty()).collect()
 }
 
-fn unknown(name: &str, known: &[String]) -> String {
+pub(super) fn unknown(name: &str, known: &[String]) -> String {
     format!("The telegram has no field “{name}”. It has: {}.", known.join(", "))
-}
-
-impl Exercise {
-    fn check(&self, step: &Step, report: &Report, found: &mut Vec<Mistake>) {
-        let mut say = |said: String| say(found, self.line, said);
-        for text in self.texts() {
-            if let Err(name) = step.filled(text, report) {
-                say(format!("In the words of this task, {{{name}}} is nothing that the telegrams of its step say."));
-            }
-        }
-        let options = step.options();
-        match &self.ask {
-            Ask::Choose(_) | Ask::Number { .. } => {}
-            Ask::Point { field: name, wrong } => {
-                let Some(detail) = report.telegrams.len().checked_sub(1).and_then(|last| report.detail(last)) else {
-                    return say("What is to be found stands in a telegram of the step, and there is none.".to_owned());
-                };
-                for name in std::iter::once(name).chain(wrong.iter().map(|(name, _)| name)) {
-                    if field(&detail, name).is_none() {
-                        say(unknown(name, &names(&detail)));
-                    }
-                }
-            }
-            Ask::Blank { telegram, fields } => {
-                if let Some(detail) = right(telegram, &options).and_then(|report| report.detail(report.telegrams.len() - 1)) {
-                    for name in fields.iter().filter(|name| field(&detail, name).is_none()) {
-                        say(unknown(name, &names(&detail)));
-                    }
-                } else {
-                    say(format!("“{telegram}” is no telegram with a valid checksum."));
-                }
-            }
-            Ask::Build { telegram, .. } => {
-                if right(telegram, &options).is_none() {
-                    say(format!("“{telegram}” is no telegram with a valid checksum."));
-                }
-            }
-            Ask::Repair { damaged, telegram } => {
-                if right(telegram, &options).is_none() {
-                    say(format!("“{telegram}” is no telegram with a valid checksum."));
-                }
-                if steps::bytes(damaged) == steps::bytes(telegram) {
-                    say("There is nothing to be made right: both are the same bytes.".to_owned());
-                }
-            }
-            Ask::Bits { from, to, .. } => {
-                if from == to {
-                    say("There is nothing to be set: both are the same bits.".to_owned());
-                }
-            }
-        }
-    }
-
-    fn texts(&self) -> impl Iterator<Item = &String> {
-        [&self.question, &self.then].into_iter().chain(&self.hints)
-    }
-}
-
-/// A telegram that is right, behind those that come before it in its text.
-fn right(telegram: &str, options: &Options) -> Option<Report> {
-    let report = decode(telegram, options.clone());
-    let fits = |it: &buslens::tool::Telegram| matches!(it.verdict, Verdict::Right | Verdict::NoCheck);
-    (report.telegrams.last().is_some_and(fits)).then_some(report)
 }

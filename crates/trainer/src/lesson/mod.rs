@@ -4,13 +4,19 @@
 //! found by the names that the library gives them, and [`Lesson::mistakes`] says of each statement that does
 //! not hold in which line it stands.
 
+mod all;
 mod check;
+mod exercise;
+mod progress;
 mod read;
 mod text;
 
 use buslens::field::{Field, Span, leaves};
 use buslens::tool::{Detail, Options, Profile, Protocol, Report, decode};
 
+pub use all::LESSONS;
+pub use exercise::{Ask, Exercise};
+pub use progress::Progress;
 pub use read::read;
 pub use text::{Piece, pieces};
 
@@ -24,7 +30,7 @@ pub struct Mistake {
 }
 
 /// A lesson.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default)]
 pub struct Lesson {
     /// The word by which links and progress name it.
     pub key: String,
@@ -38,7 +44,7 @@ pub struct Lesson {
 }
 
 /// One idea, with something to do.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default)]
 pub struct Step {
     pub title: String,
     /// Its paragraphs; [`pieces`] has what in them is code or a new word.
@@ -108,46 +114,6 @@ pub struct Statement {
     pub name: String,
     pub value: String,
     pub line: usize,
-}
-
-/// Something to do.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Exercise {
-    pub question: String,
-    pub ask: Ask,
-    /// Three steps: where to look, which rule, nearly all of it.
-    pub hints: Vec<String>,
-    /// What is said once it is right.
-    pub then: String,
-    pub line: usize,
-}
-
-/// What is to be done, and what is right.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Ask {
-    /// One of some sentences is right.
-    Choose(Vec<Choice>),
-    /// A number; some wrong ones have a remark of their own.
-    Number { value: u64, wrong: Vec<(u64, String)> },
-    /// The field of the step's last telegram that is to be found.
-    Point { field: String, wrong: Vec<(String, String)> },
-    /// Fields of a telegram that are blank.
-    Blank { telegram: String, fields: Vec<String> },
-    /// A telegram from nothing; its checksum may be added by the page.
-    Build { telegram: String, checksum_added: bool },
-    /// A damaged telegram that is to be made right.
-    Repair { damaged: String, telegram: String },
-    /// Bits that are to be set.
-    Bits { from: Vec<u8>, to: Vec<u8>, float: bool },
-}
-
-/// A sentence to choose.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Choice {
-    pub text: String,
-    pub right: bool,
-    /// Why it is wrong; empty where it is right.
-    pub remark: String,
 }
 
 impl Step {

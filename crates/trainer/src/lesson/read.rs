@@ -1,10 +1,13 @@
 //! The text of a lesson, line by line. Reading never fails: what cannot be understood is a [`Mistake`], and all
 //! else is there.
 
-use buslens::field::Span;
+use buslens::field::{Format, Span};
 use buslens::tool::{PROFILES, PROTOCOLS, Profile, Protocol, steps::bytes};
 
-use super::{Ask, Choice, Exercise, Lesson, Mistake, Place, Remark, Show, Statement, Step, Telegram};
+use super::exercise::{Ask, Exercise};
+use super::{Lesson, Mistake, Place, Remark, Show, Statement, Step, Telegram};
+use crate::notation::{self, Notation};
+use crate::task::Choice;
 
 /// Longer lines hold no sentence that anybody reads.
 const LONGEST_LINE: usize = 2_000;
@@ -61,7 +64,7 @@ struct Draft {
     asked: Option<Ask>,
     hints: Vec<String>,
     wrong: Vec<(String, String, usize)>,
-    choices: Vec<Choice>,
+    right: Vec<String>,
     then: String,
     line: usize,
 }
@@ -70,7 +73,7 @@ struct Draft {
 const OF_LESSON: &[&str] = &["key", "group", "about", "minutes"];
 const OF_STEP: &[&str] = &["device", "protocol", "telegram", "holds", "show", "task"];
 const OF_TASK: &[&str] =
-    &["right", "wrong", "number", "point", "blank", "build", "checksum", "repair", "bits", "hint", "then"];
+    &["right", "wrong", "number", "point", "blank", "build", "repair", "bits", "hint", "then"];
 
 impl Reader {
     fn say(&mut self, line: usize, said: impl Into<String>) {
@@ -237,22 +240,12 @@ impl Reader {
             "hint" if draft.hints.len() == 3 => return self.say(number, "A task has at most three hints."),
             "hint" => return draft.hints.push(value.to_owned()),
             "then" => return draft.then = value.to_owned(),
-            "right" => {
-                draft.choices.push(Choice { text: first.to_owned(), right: true, remark: remark.to_owned() });
-                return;
-            }
+            "right" => return draft.right.push(first.to_owned()),
             "wrong" if remark.is_empty() => {
                 return self.say(number, "Expected “wrong: answer | why it is wrong”: who is wrong wants to know why.");
             }
             "wrong" => return draft.wrong.push((first.to_owned(), remark.to_owned(), number)),
-            "checksum" => match (&mut draft.asked, value) {
-                (Some(Ask::Build { checksum_added, .. }), "added") => return *checksum_added = true,
-                _ => return self.say(number, "Expected “checksum: added” below a line “build: …”."),
-            },
-            "number" => match numbered(value) {
-                Some(value) => Ask::Number { value, wrong: Vec::new() },
-                None => return self.say(number, format!("“{value}” is no number, such as 200, 0x00C8 or 00C8h.")),
-            },
+            "number" => Ask::Number { value: value.to_owned(), wrong: Vec::new() },
             "point" => Ask::Point { field: value.to_owned(), wrong: Vec::new() },
             "blank" => match value.split_once(" in ") {
                 Some((fields, telegram)) => Ask::Blank {
@@ -261,7 +254,7 @@ impl Reader {
                 },
                 None => return self.say(number, "Expected “blank: Field; Field in bytes”, such as “blank: Quantity in 01 03 00 C8 00 03 84 35”."),
             },
-            "build" => Ask::Build { telegram: value.to_owned(), checksum_added: false },
+            "build" => Ask::Build { telegram: value.to_owned() },
             "repair" => match value.split_once("->") {
                 Some((damaged, telegram)) => Ask::Repair {
                     damaged: damaged.trim().to_owned(),
@@ -287,15 +280,19 @@ impl Reader {
 
     fn end_task(&mut self) {
         let Some(draft) = self.exercise.take() else { return };
-        let Draft { question, asked, hints, wrong, mut choices, then, line } = draft;
+        let Draft { question, asked, hints, wrong, right, then, line } = draft;
         let ask = match asked {
-            None if choices.iter().filter(|choice| choice.right).count() == 1 && !wrong.is_empty() => {
-                // They are shown in the order of the alphabet, so that the order tells nothing.
-                choices.extend(wrong.into_iter().map(|(text, remark, _)| Choice { text, right: false, remark }));
+            None if right.len() == 1 && !wrong.is_empty() => {
+                let right = right.concat();
+                let mut choices: Vec<Choice> =
+                    wrong.into_iter().map(|(text, remark, _)| Choice { text, remark }).collect();
+                choices.push(Choice { text: right.clone(), remark: String::new() });
+                // By the alphabet, so that the order tells nothing.
                 choices.sort_by(|one, other| one.text.cmp(&other.text));
-                Some(Ask::Choose(choices))
+                let right = choices.iter().position(|choice| choice.text == right).unwrap_or_default();
+                Some(Ask::Choose { choices, right })
             }
-            Some(Ask::Number { value, .. }) if choices.is_empty() => {
+            Some(Ask::Number { value, .. }) if right.is_empty() => {
                 let mut known = Vec::new();
                 for (text, remark, at) in wrong {
                     match numbered(&text) {
@@ -305,11 +302,11 @@ impl Reader {
                 }
                 Some(Ask::Number { value, wrong: known })
             }
-            Some(Ask::Point { field, .. }) if choices.is_empty() => {
+            Some(Ask::Point { field, .. }) if right.is_empty() => {
                 let wrong = wrong.into_iter().map(|(name, remark, _)| (name, remark)).collect();
                 Some(Ask::Point { field, wrong })
             }
-            Some(ask) if choices.is_empty() && wrong.is_empty() => Some(ask),
+            Some(ask) if right.is_empty() && wrong.is_empty() => Some(ask),
             _ => None,
         };
         match (ask, &mut self.step) {
@@ -370,17 +367,9 @@ fn show(word: &str) -> Option<Show> {
     })
 }
 
-/// A number as people write it: 200, 0xC8, C8h.
-pub fn numbered(text: &str) -> Option<u64> {
-    let text = text.trim();
-    let hex = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"));
-    let hex = hex.or_else(|| text.strip_suffix('h')).or_else(|| text.strip_suffix('H'));
-    match hex {
-        Some(digits) if digits.bytes().all(|it| it.is_ascii_hexdigit()) => u64::from_str_radix(digits, 16).ok(),
-        Some(_) => None,
-        None if text.bytes().all(|it| it.is_ascii_digit()) => text.parse().ok(),
-        None => None,
-    }
+/// A whole number as people write it: 200, 0xC8, C8h.
+fn numbered(text: &str) -> Option<u64> {
+    notation::read(text, 8, Format::Decimal, Notation::Any).ok().map(|written| written.raw)
 }
 
 fn bits(value: &str) -> Option<Ask> {
