@@ -9,6 +9,7 @@
 mod names;
 mod offline;
 mod one_file;
+mod order;
 mod page;
 mod split;
 mod unused;
@@ -151,7 +152,7 @@ impl Compiled {
             .map_err(|error| format!("The glue of {name} cannot be made smaller: {error}."))?;
         Ok(Compiled {
             glue: hashed(name, "js", glue.to_string().into_bytes()),
-            wasm: hashed(name, "wasm", output.wasm_mut().emit_wasm()),
+            wasm: hashed(name, "wasm", order::ordered(&output.wasm_mut().emit_wasm())?),
             later,
         })
     }

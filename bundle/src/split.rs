@@ -8,6 +8,7 @@ use std::path::Path;
 use wasm_split_cli_support::{Options, transform};
 
 use crate::names;
+use crate::order::ordered;
 use crate::page::File;
 
 /// A module in parts.
@@ -42,7 +43,7 @@ pub fn split(wasm: &[u8], folder: &Path) -> Result<Split, String> {
     let mut renamed = BTreeMap::new();
     for path in parts.split_modules {
         let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let content = without_custom_sections(&read(&path)?)?;
+        let content = ordered(&read(&path)?)?;
         let name = names::hashed("later", "wasm", &content);
         renamed.insert(format!("\"./{stem}.wasm\""), format!("\"./{name}\""));
         later.push(File { name, content });
@@ -90,16 +91,6 @@ pub fn join(glue: &str, link: &str) -> Result<String, String> {
     }
     joined.push_str(&format!("const {name} = {{ {} }};\n", loaders.join(", ")));
     Ok(joined)
-}
-
-/// A module without names of functions and the like, which nobody reads in a browser.
-fn without_custom_sections(wasm: &[u8]) -> Result<Vec<u8>, String> {
-    const CUSTOM: u8 = 0;
-    let kept = sections(wasm)?.into_iter().filter(|section| section.kind != CUSTOM);
-    Ok(kept.fold(wasm[..HEADER].to_vec(), |mut module, section| {
-        module.extend_from_slice(section.whole);
-        module
-    }))
 }
 
 /// How long the beginning of a module is, before its sections.
@@ -167,16 +158,5 @@ mod tests {
             "function f() {\nreturn {\n\"./page_bg.js\": import0,\n\"./__wasm_split.js\": import1,\n};\n}\n\
              const a = 1;\nconst load = a;\nconst import1 = { load };\n"
         );
-    }
-
-    #[test]
-    fn only_custom_sections_are_left_out() {
-        let header = b"\0asm\x01\0\0\0".to_vec();
-        let wasm = [&header[..], &[1, 2, 7, 7], &[0, 3, 1, 97, 9], &[3, 1, 0]].concat();
-        assert_eq!(
-            without_custom_sections(&wasm).unwrap(),
-            [&header[..], &[1, 2, 7, 7], &[3, 1, 0]].concat()
-        );
-        assert!(without_custom_sections(&wasm[..wasm.len() - 1]).is_err());
     }
 }

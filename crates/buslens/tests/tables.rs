@@ -1,5 +1,10 @@
-//! What the codecs say of many small things, a line each, in `tests/tables`: a change that nobody meant shows
+//! What the codecs and the reader say of many small things, a line each, in `tests/tables`: a change that nobody meant shows
 //! there. `BLESS=1 cargo test --test tables` writes the tables; read what changed before you commit it.
+
+#[path = "tables/reader.rs"]
+mod reader;
+#[path = "tables/traffic.rs"]
+mod traffic;
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -221,7 +226,8 @@ fn bodies() {
     for kind in KINDS.iter().chain(OTHER_KINDS) {
         let body = (kind.new)();
         // What a response is for, nobody asks.
-        let said = if kind.direction == Direction::Request { about(body.as_ref()) } else { access(body.as_ref()) };
+        let said =
+            if kind.direction == Direction::Request { about(body.as_ref()) } else { access(body.as_ref()) };
         writeln!(table, "{}: {said}, exception {:?}", kind.spec.key, body.exception()).unwrap();
     }
     for number in [0, 1, 2, 3, 4, 5, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21] {
