@@ -31,11 +31,11 @@ fn grouped(courses: Vec<Course>) -> Vec<(String, Vec<(usize, Course)>)> {
 #[component]
 fn Sign(number: usize, course: Course) -> impl IntoView {
     let state = state();
-    let done = move || state.count(&course.lesson) == course.lesson.steps.len();
+    let done = Memo::new(move |_| state.count(&course.lesson) == course.lesson.steps.len());
     view! {
-        <span class="sign" class:done=done.clone()>
+        <span class="sign" class:done=move || done.get()>
             {move || {
-                if done() {
+                if done.get() {
                     view! {
                         <Icon glyph=Glyph::Tick />
                         <span class="unseen">"Done: "</span>

@@ -8,7 +8,7 @@ use leptos::prelude::*;
 use super::state::{Attempt, Here, LessonsState, link_to};
 use super::switches::{Switches, number};
 use super::words::Words;
-use crate::components::byte_strip::{Block, ByteStrip, Chosen, Lights, blocks, role_class};
+use crate::components::byte_strip::{Block, ByteStrip, Chosen, Lights, blocks};
 use crate::components::icon::{Glyph, Icon};
 use crate::views::learn::LearnState;
 use buslens::field::{Span, hex};

@@ -40,7 +40,7 @@ pub fn Sides(step: Step, shown: Vec<Shown>) -> impl IntoView {
                 <li
                     class=if request { "asks" } else { "answers" }
                     class:current=move || current.get() == index
-                    hidden=move || (index > latest.get())
+                    hidden=move || latest.get() < index
                 >
                     <span class="unseen">{if request { "Sent: " } else { "Came back: " }}</span>
                     {content}

@@ -45,8 +45,9 @@ pub fn StepText(here: Here) -> impl IntoView {
         Show::Sides => view! { <Sides step=step.clone() shown=shown.clone() /> }.into_any(),
         Show::Checksum => view! { <Checksum shown=shown.clone() /> }.into_any(),
         Show::Line(rate) => {
+            let bytes = shown.iter().map(|shown| shown.bytes().to_vec()).collect::<Vec<_>>();
             view! {
-                <Line rate bytes=shown.iter().map(|it| it.bytes().to_vec()).collect::<Vec<_>>() />
+                <Line rate bytes />
                 <Walk step=step.clone() shown=shown.clone() />
             }
             .into_any()
