@@ -221,7 +221,8 @@ fn bodies() {
     for kind in KINDS.iter().chain(OTHER_KINDS) {
         let body = (kind.new)();
         // What a response is for, nobody asks.
-        let said = if kind.direction == Direction::Request { about(body.as_ref()) } else { access(body.as_ref()) };
+        let said =
+            if kind.direction == Direction::Request { about(body.as_ref()) } else { access(body.as_ref()) };
         writeln!(table, "{}: {said}, exception {:?}", kind.spec.key, body.exception()).unwrap();
     }
     for number in [0, 1, 2, 3, 4, 5, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21] {

@@ -209,7 +209,9 @@ impl Shape {
             wrong => message!("the length fits, but {n} of the values are not allowed", n = wrong),
         };
         let unknown = match of.len() {
-            1 => message!("nothing but length and values tells that they are of {thing}", thing = one_of(&of)),
+            1 => {
+                message!("nothing but length and values tells that they are of {thing}", thing = one_of(&of))
+            }
             _ => message!("the bytes do not tell the register: {things}", things = one_of(&of)),
         };
         Some(Likely { kind: self.kind(), said, fields, reason, unknown, blocks, bits })
