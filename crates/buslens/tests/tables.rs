@@ -1,5 +1,10 @@
-//! What the codecs say of many small things, a line each, in `tests/tables`: a change that nobody meant shows
+//! What the codecs and the reader say of many small things, a line each, in `tests/tables`: a change that nobody meant shows
 //! there. `BLESS=1 cargo test --test tables` writes the tables; read what changed before you commit it.
+
+#[path = "tables/reader.rs"]
+mod reader;
+#[path = "tables/traffic.rs"]
+mod traffic;
 
 use std::fmt::Write as _;
 use std::path::Path;
