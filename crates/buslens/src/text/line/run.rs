@@ -97,7 +97,7 @@ impl Run {
 
     /// Whether commas stand between its numbers.
     pub fn is_list(&self) -> bool {
-        self.tokens > 1 && self.separator == b','
+        self.separator == b','
     }
 
     /// Whether a mark stands between its bytes.
