@@ -233,3 +233,111 @@ fn is_free(line: &[u8], number: Span) -> bool {
         && !went_on
         && behind.first() != Some(&b'#')
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::text::line::Start;
+
+    /// All that a scan tells of its line.
+    fn told(scan: &Scan) -> String {
+        let Scan {
+            hex, decimal, places, runs, breaks, time, words, slips, column, sender, both, port, ..
+        } = scan;
+        let (telegrams, leftovers) = (scan.of_telegrams, scan.of_leftovers);
+        format!(
+            "{hex:?} {decimal:?} {places:?} {runs:?} {breaks:?} {time:?} {words} {slips} {column} {sender:?} {both} \
+             {port:?} {telegrams} {leftovers}"
+        )
+    }
+
+    /// Whether `second` is read by comparing it with `first`; if so, all is as if it were read by itself.
+    fn is_like(first: &str, second: &str, numbers: Option<Numbers>) -> bool {
+        let (mut alike, mut scan) = (Alike::default(), Scan::default());
+        scan.read(first.as_bytes(), Start::default(), numbers);
+        alike.learn(first.as_bytes(), &scan);
+        let like = alike.read(second.as_bytes(), &mut scan);
+        if like {
+            let mut alone = Scan::default();
+            alone.read(second.as_bytes(), Start::default(), numbers);
+            assert_eq!(told(&scan), told(&alone), "{first} {second}");
+        }
+        like
+    }
+
+    #[test]
+    fn lines_that_differ_in_their_numbers() {
+        for (first, second) in [
+            ("01 03 00 C8 00 03 84 35", "11 10 0F FF 00"),
+            ("TX: 01 03 00 C8 00 03", "TX: FF FF FF FF FF FF FF FF FF"),
+            ("09:30:05.123 TX: 01 03 00 C8 00 03", "23:59:59.999 TX: 11 10 0F FF 00"),
+            ("2026-03-02 09:30:05 [a] 01-03-00-c8-00-03", "2027-12-31 23:59:59 [a] 81-03-1f-c8-00"),
+            ("000017-Tx:01 03 00 C8 00 03 84 35", "000958-Tx:81 03 02 C0 F1"),
+            ("12345 rx 01  03  00  C8  00", "99999 rx 21  03  1A  C8  00"),
+            ("[01][03][00][C8][00][03]", "[81][03][1F][C8][00][03][04]"),
+            ("<01><03><00><C8><00><03>", "<81><03><1F><C8><00><03><04>"),
+            (">>> 01:03:00:C8:00:03  ", ">>> 10:15:20:30:40:50:16  "),
+            (
+                "10.0.0.7:49152 -> 10.0.0.1:502 01 03 00 C8 00",
+                "10.0.0.7:49152 -> 10.0.0.1:502 11 03 10 C8 00",
+            ),
+            (":010300C800032D", ":8103020F1234567890"),
+            ("Tx=010300c800038435", "Tx=123456789012"),
+            ("Raw >>> {0x01, 0x03, 0x00, 0xC8, 0x00}", "Raw >>> {0x11, 0x13, 0x20, 0xFF, 0x00, 0x01}"),
+        ] {
+            assert!(is_like(first, second, Some(Numbers::Hex)), "{first}");
+        }
+        let marked = "rx 0x01 0x03 0x00 0xC8 0x00";
+        assert!(is_like(marked, &marked.replace("C8", "1F"), None));
+        // Milliseconds since 1970.
+        assert!(is_like(
+            "1775000000001 tx 01 03 00 C8 00",
+            "1775999999999 tx 01 03 00 C8 00",
+            Some(Numbers::Hex)
+        ));
+    }
+
+    #[test]
+    fn lines_whose_numbers_say_more() {
+        for (first, second) in [
+            // Other words, marks, and lengths.
+            ("TX: 01 03 00 C8 00 03", "RX: 01 03 00 C8 00 03"),
+            ("TX: 01 03 00 C8 00 03", "TX:  01 03 00 C8 00 03"),
+            ("TX: 01 03 00 C8 00 03", "TX: 01 03 00-C8 00 03"),
+            ("TX: 01 03 00 C8 00 03", "TX: 01 03 00 C8 00 03 (6)"),
+            ("TX: 01 03 00 C8 00 03", "TX: 01 03 00 C8 00 3"),
+            ("TX: 01 03 00 C8 00 03", "TX: 01 03 00 C8 00 G3"),
+            ("TX: 01 03 00 C8 00 03", "TX: 01 03 00 C8"),
+            ("TX 0x01 0x03 0x00 0xC8 0x00", "TX 0x01 0x03 0x00 0xC8 1x00"),
+            ("TX 0x01 0x03 0x00 0xC8 0x00", "TX 0x01 0x03 0x00 0xC8,0x00"),
+            // No time.
+            ("09:30:05 TX 01 03 00 C8 00", "25:30:05 TX 01 03 00 C8 00"),
+            ("2026-03-02 TX 01 03 00 C8 00", "2026-13-02 TX 01 03 00 C8 00"),
+            // A word, and bits.
+            ("Tx=010300c80003", "Tx=abcdefabcdef"),
+            ("Tx=010300c800038435", "Tx=0101010101010101"),
+            // A counter that could be bytes of the telegram, an address, an offset.
+            ("5 01 03 00 C8 00", "6 11 03 00 C8 00"),
+            ("COM 12: 01 03 00 C8 00", "COM 13: 01 03 00 C8 00"),
+            ("0010: 01 03 00 C8 00", "0020: 01 03 00 C8 00"),
+            ("x -01 03 00 C8 00", "x -16 03 00 C8 00"),
+            (r"\x01 01 03 00 C8 00", r"\x02 01 03 00 C8 00"),
+        ] {
+            assert!(!is_like(first, second, Some(Numbers::Hex)), "{first} {second}");
+        }
+        assert!(!is_like("01 03 00 C8 00", "11 03 00 C8 00", None), "they could be decimal");
+    }
+
+    #[test]
+    fn few_lines_are_kept_where_none_is_like_another() {
+        let mut alike = Alike::default();
+        let mut scan = Scan::default();
+        for n in 0..400 {
+            let line = format!("{} 01 03 00 C8 00", "x".repeat(n + 1));
+            scan.read(line.as_bytes(), Start::default(), Some(Numbers::Hex));
+            alike.learn(line.as_bytes(), &scan);
+        }
+        assert!(alike.patterns.len() <= 8);
+        assert!(alike.patterns.iter().all(|pattern| pattern.head.len() > 60), "the oldest ones are replaced");
+    }
+}
