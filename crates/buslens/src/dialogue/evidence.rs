@@ -166,8 +166,8 @@ fn damaged(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
 
 /// A request to write whose check is wrong: its numbers of registers and of bytes tell it among other bytes.
 pub fn counted_write(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
-    let writes = matches!(modbus_rtu::RTU.pdu_bytes(bytes), [15 | 16 | 101, ..]);
-    damaged(bytes, splitter).filter(|reading| writes && reading.bits >= CONVERSATION)
+    matches!(modbus_rtu::RTU.pdu_bytes(bytes), [15 | 16 | 101, ..]).then_some(())?;
+    damaged(bytes, splitter).filter(|reading| reading.bits >= CONVERSATION)
 }
 
 /// Bytes with a right check whose length is not that of their function.

@@ -156,22 +156,25 @@ impl Traffic {
                 return;
             }
         }
+        let fresh = |own: &[u8]| {
+            !known.iter().any(|(at, length)| {
+                self.data.get(*at as usize..*at as usize + usize::from(*length)) == Some(own)
+            })
+        };
         // A write counts what it holds: it is told even where its check is misprinted.
         let write = (0..bytes.len()).find_map(|at| {
             let length =
                 self.splitter.rtu_lengths(&bytes[at..])[0].filter(|length| *length <= bytes.len() - at)?;
             let telegram = &bytes[at..at + length];
-            evidence::counted_write(telegram, &self.splitter).map(|reading| (at, telegram, reading))
+            let reading = evidence::counted_write(telegram, &self.splitter)?;
+            fresh(telegram).then_some((at, telegram, reading))
         });
         if let Some((at, telegram, reading)) = write {
             return self.add_weak(index, telegram, at, &row.facts, Some(reading));
         }
         // As the standard prints its examples, request and response stand side by side without a check.
-        let fresh = !known.iter().any(|(at, length)| {
-            self.data.get(*at as usize..*at as usize + usize::from(*length)) == Some(bytes)
-        });
         let reading = evidence::reading(bytes, &self.splitter, None)
-            .filter(|reading| fresh && !reading.cut && reading.verdict == Verdict::NoCheck)
+            .filter(|reading| fresh(bytes) && !reading.cut && reading.verdict == Verdict::NoCheck)
             .filter(|_| !row.facts.marked);
         match reading {
             Some(_) => self.add_weak(index, bytes, 0, &row.facts, reading),
