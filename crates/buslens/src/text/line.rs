@@ -348,7 +348,7 @@ impl Scan {
         self.runs.clone_from(&other.runs);
         self.port.clone_from(&other.port);
         self.breaks.clone_from(&other.breaks);
-        self.decimal.clear();
+        self.decimal.clone_from(&other.decimal);
         (self.numbers, self.sender, self.both) = (other.numbers, other.sender, other.both);
         (self.words, self.slips, self.column) = (other.words, other.slips, other.column);
         (self.of_telegrams, self.of_leftovers) = (other.of_telegrams, other.of_leftovers);
@@ -406,7 +406,11 @@ impl Scan {
     pub fn counts(&self, run: &Run) -> bool {
         // Counts are decimal, whatever the bytes are.
         let first = self.hex[run.first];
-        let count = if run.hex { first / 16 * 10 + first % 16 } else { self.decimal[run.first] };
+        let count = if run.hex {
+            first / 16 * 10 + first % 16
+        } else {
+            self.decimal.get(run.first).copied().unwrap_or_default()
+        };
         run.len() > 4 && run.tokens() == run.len() && usize::from(count) + 1 == run.len()
     }
 

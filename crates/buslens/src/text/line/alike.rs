@@ -2,11 +2,12 @@
 //! bytes. They are read by comparing them, and what comes out is what [`Scan::read`] would make of them.
 //!
 //! A line is a pattern for others where nothing that it says can depend on the values of its numbers: its bytes are
-//! hex, two digits each with the same before and between them (`01 03`, `0x01, 0x03`, `0103`), and end it; what stands
-//! before them are the same words and marks; of the numbers there, the time is read again, and the others are so long
-//! that they are no bytes, or bytes whatever their value.
+//! hex, two digits each with the same before and between them (`01 03`, `0x01, 0x03`, `0103`); what stands before and
+//! behind them are the same words and marks; of the numbers before them, the time is read again, and the others are so
+//! long that they are no bytes, or bytes whatever their value. Where more than brackets stands behind the bytes, there
+//! have to be as many.
 
-use super::{Numbers, Scan, Style};
+use super::{Scan, Style};
 use crate::field::Span;
 use crate::text::characters::{DIGITS, is_bits, is_digit, separator};
 use crate::text::dump::has_offset;
@@ -35,6 +36,10 @@ struct Pattern {
     gap: Vec<u8>,
     /// What stands behind the last one.
     tail: Vec<u8>,
+    /// How many characters the bytes have, where others cannot have more or less.
+    length: Option<usize>,
+    /// Which of the runs they are.
+    run: usize,
     scan: Scan,
 }
 
@@ -57,7 +62,7 @@ impl Alike {
     /// `line` was read into `scan`: others may be like it.
     pub fn learn(&mut self, line: &[u8], scan: &Scan) {
         /// Request and response, of a few units or ports.
-        const MOST: usize = 8;
+        const MOST: usize = 16;
         /// Where so many were of no use, few more are tried.
         const USELESS: usize = 64;
         if self.idle > USELESS {
@@ -76,7 +81,7 @@ impl Alike {
 
 impl Pattern {
     fn of(line: &[u8], scan: &Scan) -> Option<Self> {
-        let run = scan.runs.last()?;
+        let (index, run) = scan.runs.iter().enumerate().max_by_key(|(_, run)| run.len())?;
         let (before, own, tail) = (&line[..run.span.from], run.span.of(line), &line[run.span.to..]);
         let (mark, gap) = match run.style {
             Style::Separated if !run.marked && (1..=2).contains(&run.gap) => (0, run.gap),
@@ -97,6 +102,7 @@ impl Pattern {
         }
         let (mark, gap) = (&own[..mark], &own[step - gap..step]);
         let ends = tail.iter().all(|c| c.is_ascii_whitespace() || matches!(c, b']' | b')' | b'}' | b'>'));
+        let length = (!ends).then_some(own.len());
         // What could be one number with the first byte.
         let apart = match before {
             [.., a, b':' | b'/'] => !is_digit(*a),
@@ -106,12 +112,13 @@ impl Pattern {
         // A date may go on as a time.
         let date =
             scan.time_place.is_some_and(|time| time.to + 4 > run.span.from) && gap.first() != Some(&b' ');
-        let other = scan.runs.iter().rev().nth(1).map(|other| &before[other.span.to..]);
+        let other = scan.runs[..index].last().map(|other| &before[other.span.to..]);
         let joins = other.is_some_and(|between| separator(between).is_some());
         // Others with so many bytes may be shown as characters behind them, and a backslash makes bytes of characters.
         let others = scan.runs.iter().filter(|run| run.len() >= SHORTEST).count() > 1
-            || before.iter().any(|c| matches!(*c, HOLE | b'\\'));
-        if !(ends && apart) || date || joins || others || gap.first() == Some(&b'#') || has_offset(line) {
+            || before.iter().chain(tail).any(|c| matches!(*c, HOLE | b'\\'));
+        let late = scan.time_place.is_some_and(|time| time.to > run.span.from);
+        if !apart || late || date || joins || others || gap.first() == Some(&b'#') || has_offset(line) {
             return None;
         }
         let mut head = before.to_vec();
@@ -131,7 +138,7 @@ impl Pattern {
         }
         let numbers = (0..run.first).filter(|at| head[scan.places[*at].from] == HOLE).collect();
         let (mark, gap, tail) = (mark.to_vec(), gap.to_vec(), tail.to_vec());
-        Some(Self { head, time, numbers, mark, gap, tail, scan: scan.clone() })
+        Some(Self { head, time, numbers, mark, gap, tail, length, run: index, scan: scan.clone() })
     }
 
     fn read(&self, line: &[u8], scan: &mut Scan) -> bool {
@@ -143,8 +150,8 @@ impl Pattern {
         }
         let own = &bytes[..bytes.len() - tail.len()];
         let (step, whole) = (mark.len() + 2 + gap.len(), own.len() + gap.len());
-        let count = whole / step;
-        if whole % step != 0 || count < SHORTEST || (gap.is_empty() && is_value(own)) {
+        let (count, as_many) = (whole / step, self.length.is_none_or(|length| length == own.len()));
+        if !as_many || whole % step != 0 || count < SHORTEST || (gap.is_empty() && is_value(own)) {
             return false;
         }
         let time = match self.time {
@@ -156,11 +163,13 @@ impl Pattern {
         };
         scan.like(&self.scan);
         let Scan { hex, decimal, places, runs, .. } = scan;
-        let Some(run) = runs.last_mut() else { return false };
-        let (from, first) = (head.len(), run.first);
-        hex.truncate(first);
-        decimal.truncate(first);
-        places.truncate(first);
+        let run = &mut runs[self.run];
+        let (from, first, fixed) = (head.len(), run.first, self.length.is_some());
+        if !fixed {
+            hex.truncate(first);
+            decimal.truncate(first);
+            places.truncate(first);
+        }
         let (mut all, mut padded, mut same) = (0, false, true);
         let mut byte = |at: &[u8]| {
             let [high, low] = [DIGITS[usize::from(at[0])], DIGITS[usize::from(at[1])]];
@@ -185,17 +194,32 @@ impl Pattern {
         if !same || !others.ends_with(mark) || all > 15 {
             return false;
         }
-        let width = mark.len() + 2;
-        places.extend((0..count).map(|nth| Span::new(from + nth * step, from + nth * step + width)));
+        let hex_only = self.scan.hex_only();
+        if fixed {
+            let fresh = hex.len() - count;
+            hex.copy_within(fresh.., first);
+            hex.truncate(fresh);
+        } else {
+            let width = mark.len() + 2;
+            places.extend((0..count).map(|nth| Span::new(from + nth * step, from + nth * step + width)));
+            decimal.resize(if hex_only { 0 } else { hex.len() }, 0);
+        }
+        if !hex_only {
+            // A byte with a mark is the same in a list of decimal numbers.
+            decimal[first..first + count].copy_from_slice(&hex[first..first + count]);
+        }
         (run.end, run.span.to) = (first + count, from + own.len());
         if !gap.is_empty() {
             (run.tokens, run.since, run.last) = (count, count, first + count - 1);
             run.padded = padded && !run.marked;
         }
-        if self.scan.numbers != Some(Numbers::Hex) {
-            // A byte with a mark is the same in a list of decimal numbers.
-            decimal.extend_from_slice(&hex[first..]);
+        // What stands behind them may show them as characters, or go on with them.
+        let run = &scan.runs[self.run];
+        let same = run.padded == self.scan.runs[self.run].padded;
+        if fixed && (!same || scan.is_column(line, run)) {
+            return false;
         }
+        let Scan { hex, places, .. } = scan;
         for at in &self.numbers {
             let digits = places[*at].of(line);
             hex[*at] = DIGITS[usize::from(digits[0])] << 4 | DIGITS[usize::from(digits[1])];
@@ -237,7 +261,7 @@ fn is_free(line: &[u8], number: Span) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::text::line::Start;
+    use crate::text::line::{Numbers, Start};
 
     /// All that a scan tells of its line.
     fn told(scan: &Scan) -> String {
@@ -271,7 +295,7 @@ mod tests {
             ("01 03 00 C8 00 03 84 35", "11 10 0F FF 00"),
             ("TX: 01 03 00 C8 00 03", "TX: FF FF FF FF FF FF FF FF FF"),
             ("09:30:05.123 TX: 01 03 00 C8 00 03", "23:59:59.999 TX: 11 10 0F FF 00"),
-            ("2026-03-02 09:30:05 [a] 01-03-00-c8-00-03", "2027-12-31 23:59:59 [a] 81-03-1f-c8-00"),
+            ("2026-03-02 09:30:05 [x] 01-03-00-c8-00-03", "2027-12-31 23:59:59 [x] 81-03-1f-c8-00"),
             ("000017-Tx:01 03 00 C8 00 03 84 35", "000958-Tx:81 03 02 C0 F1"),
             ("12345 rx 01  03  00  C8  00", "99999 rx 21  03  1A  C8  00"),
             ("[01][03][00][C8][00][03]", "[81][03][1F][C8][00][03][04]"),
@@ -284,6 +308,11 @@ mod tests {
             (":010300C800032D", ":8103020F1234567890"),
             ("Tx=010300c800038435", "Tx=123456789012"),
             ("Raw >>> {0x01, 0x03, 0x00, 0xC8, 0x00}", "Raw >>> {0x11, 0x13, 0x20, 0xFF, 0x00, 0x01}"),
+            (
+                "[09:30:05] rx: 01.03.00.C8.00 (5 bytes in 12 ms)",
+                "[09:30:06] rx: 81.00.1F.C8.00 (5 bytes in 12 ms)",
+            ),
+            ("rx: 0x01 0x03 0x00 0xC8 0x00, len 5", "rx: 0x11 0x13 0x10 0xC8 0x00, len 5"),
         ] {
             assert!(is_like(first, second, Some(Numbers::Hex)), "{first}");
         }
@@ -307,6 +336,9 @@ mod tests {
             ("TX: 01 03 00 C8 00 03", "TX: 01 03 00 C8 00 03 (6)"),
             ("TX: 01 03 00 C8 00 03", "TX: 01 03 00 C8 00 3"),
             ("TX: 01 03 00 C8 00 03", "TX: 01 03 00 C8 00 G3"),
+            ("TX: 01 03 00 C8 00 (5)", "TX: 01 03 00 C8 00 03 (5)"),
+            ("TX: 01 03 00 C8 00 Modbus", "TX: 81 13 10 C8 10 Modbus"),
+            ("TX: 30 30 31 32 33  00223", "TX: 30 30 32 32 33  00223"),
             ("TX: 01 03 00 C8 00 03", "TX: 01 03 00 C8"),
             ("TX 0x01 0x03 0x00 0xC8 0x00", "TX 0x01 0x03 0x00 0xC8 1x00"),
             ("TX 0x01 0x03 0x00 0xC8 0x00", "TX 0x01 0x03 0x00 0xC8,0x00"),
@@ -338,6 +370,6 @@ mod tests {
             alike.learn(line.as_bytes(), &scan);
         }
         assert!(alike.patterns.len() <= 8);
-        assert!(alike.patterns.iter().all(|pattern| pattern.head.len() > 60), "the oldest ones are replaced");
+        assert!(alike.patterns.iter().all(|pattern| pattern.head.len() > 50), "the oldest ones are replaced");
     }
 }
