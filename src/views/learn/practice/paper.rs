@@ -113,13 +113,16 @@ fn question((index, task): (usize, &Task)) -> impl IntoView + use<> {
     let alone = task.given.len() == 1;
     let given = task.given.iter().map(|given| match given {
         Given::Text(text) => view! { <pre class="mono">{text.clone()}</pre> }.into_any(),
-        Given::Telegram(telegram) => view! {
-            <figure>
-                <figcaption>{caption(telegram, alone)}</figcaption>
-                <Grid cells=telegram.bytes.iter().map(|byte| format!("{byte:02X}")).collect::<Vec<_>>() />
-            </figure>
+        Given::Telegram(telegram) => {
+            let cells: Vec<String> = telegram.bytes.iter().map(|byte| format!("{byte:02X}")).collect();
+            view! {
+                <figure>
+                    <figcaption>{caption(telegram, alone)}</figcaption>
+                    <Grid cells />
+                </figure>
+            }
+            .into_any()
         }
-        .into_any(),
     });
     let given = given.collect_view();
     let room = match &task.expected {
