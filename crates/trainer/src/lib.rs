@@ -5,6 +5,7 @@
 //! | --- | --- |
 //! | [`task`] | what a task is |
 //! | [`mod@grade`] | whether an answer is right, and which field is off in which way |
+//! | [`lesson`] | lessons as text: reading them, and holding them to what the library says |
 //! | [`notation`] | numbers as people write them |
 //! | [`practice`] | tasks without end, made of a seed; [`random`] numbers for them |
 //! | [`result`] | what came of a round, in eight letters |
@@ -16,6 +17,7 @@
 
 pub mod course;
 pub mod grade;
+pub mod lesson;
 pub mod notation;
 pub mod practice;
 pub mod random;

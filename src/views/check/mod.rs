@@ -7,7 +7,9 @@ mod steps;
 
 use std::time::Duration;
 
+use leptos::ev::MouseEvent;
 use leptos::prelude::*;
+use web_sys::HtmlInputElement;
 
 use crate::components::copy_button::CopyButton;
 use crate::components::icon::{Glyph, Icon};
@@ -22,6 +24,32 @@ use steps::{Bytes, Player, StepList};
 
 #[component]
 pub fn Check() -> impl IntoView {
+    let state = expect_context::<CheckState>();
+    let work = state.work();
+    view! {
+        <div class="check">
+            <h2 class="unseen">"Check: how a CRC or checksum is calculated"</h2>
+            <Input />
+            <Outcome />
+            <Show when=move || work.with(|work| work.covered > 0)>
+                <div class="columns">
+                    <section aria-label="Calculation">
+                        <Calculation />
+                        <Worth />
+                    </section>
+                    <section class="rail" aria-label="Steps and other algorithms">
+                        <StepList />
+                        <Algorithms />
+                    </section>
+                </div>
+            </Show>
+        </div>
+    }
+}
+
+/// The steps of a check one by one: bytes, player, registers, and why. Its state is in the context.
+#[component]
+pub fn Calculation() -> impl IntoView {
     let state = expect_context::<CheckState>();
     let work = state.work();
     Effect::new(move || {
@@ -43,26 +71,10 @@ pub fn Check() -> impl IntoView {
     // Who comes back finds the step, not the play.
     on_cleanup(move || state.playing.set(false));
     view! {
-        <div class="check">
-            <h2 class="unseen">"Check: how a CRC or checksum is calculated"</h2>
-            <Input />
-            <Outcome />
-            <Show when=move || work.with(|work| work.covered > 0)>
-                <div class="columns">
-                    <section aria-label="Calculation">
-                        <Bytes />
-                        <Player />
-                        <Registers />
-                        <Why />
-                        <Worth />
-                    </section>
-                    <section class="rail" aria-label="Steps and other algorithms">
-                        <StepList />
-                        <Algorithms />
-                    </section>
-                </div>
-            </Show>
-        </div>
+        <Bytes />
+        <Player />
+        <Registers />
+        <Why />
     }
 }
 
@@ -115,6 +127,14 @@ fn Input() -> impl IntoView {
         let own = check.kind;
         view! { <option value=own prop:selected=move || kind.get() == own>{title(own)}</option> }
     };
+    // Who comes with bytes of his own types or pastes them in place of the example. The next click is for a byte
+    // of it.
+    let comes = StoredValue::new(false);
+    let click = move |event: MouseEvent| {
+        if comes.try_update_value(std::mem::take) == Some(true) && state.is_example() {
+            event_target::<HtmlInputElement>(&event).select();
+        }
+    };
     view! {
         <section class="bar" aria-label="Input">
             <label class="entry">
@@ -125,6 +145,8 @@ fn Input() -> impl IntoView {
                     spellcheck="false"
                     aria-invalid=move || work.with(|work| work.nonsense).to_string()
                     prop:value=move || state.text()
+                    on:focus=move |_| comes.set_value(true)
+                    on:click=click
                     on:input=move |event| state.enter(event_target_value(&event))
                 />
             </label>
