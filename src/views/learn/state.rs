@@ -2,6 +2,7 @@
 
 use leptos::prelude::*;
 
+use super::lessons::LessonsState;
 use crate::address::Address;
 use buslens::tool::link::Link;
 
@@ -18,7 +19,7 @@ impl Part {
     pub const ALL: [Self; 4] = [Self::Lessons, Self::Practice, Self::Gallery, Self::Reference];
 
     /// What it is called in links.
-    const fn key(self) -> &'static str {
+    pub const fn key(self) -> &'static str {
         match self {
             Self::Lessons => "lessons",
             Self::Practice => "practice",
@@ -44,6 +45,7 @@ pub struct LearnState {
     part: RwSignal<Part>,
     /// The place in each part, in the order of [`Part::ALL`]: words with points between them.
     places: [RwSignal<String>; 4],
+    pub lessons: LessonsState,
 }
 
 impl LearnState {
@@ -53,6 +55,7 @@ impl LearnState {
             address: expect_context(),
             part: RwSignal::new(Part::Lessons),
             places: std::array::from_fn(|_| RwSignal::new(String::new())),
+            lessons: LessonsState::new(),
         }
     }
 
@@ -75,6 +78,12 @@ impl LearnState {
     pub fn go_to(self, part: Part, place: String) {
         self.places[part as usize].set(place);
         self.address.chosen();
+    }
+
+    /// Somebody types there: the address follows at the next pause.
+    pub fn type_to(self, part: Part, place: String) {
+        self.places[part as usize].set(place);
+        self.address.typed();
     }
 
     pub fn link(&self) -> Link {
