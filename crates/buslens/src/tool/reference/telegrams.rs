@@ -84,12 +84,13 @@ impl Topic {
             Subject::Service(kinds) => kinds
                 .iter()
                 .map(|kind| {
-                    let mut frame = Fdl::new(kind, &profibus::Settings::default());
+                    // What is around it is the same for all: frames have pages of their own.
+                    let mut body = (kind.new)(&profibus::Settings::default());
                     Layout::new(
                         direction_name(kind.direction),
                         kind.direction,
                         kind.spec.note,
-                        guide(&mut frame),
+                        guide(body.as_mut()),
                     )
                 })
                 .collect(),
