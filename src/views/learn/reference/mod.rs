@@ -334,9 +334,13 @@ mod tests {
 
     #[test]
     fn a_place_leads_back() {
-        for place in
-            ["", "modbus.telegrams", "modbus.telegrams.16", "keb-f5-modbus.registers..fb.05", "...set speed"]
-        {
+        for place in [
+            "",
+            "..modbus:codes:x.a.b",
+            "modbus.telegrams.16",
+            "keb-f5-modbus.registers..fb.05",
+            "...set speed",
+        ] {
             assert_eq!(Place::of(place).text(), place);
         }
         assert_eq!(Place::of("modbus.telegrams.16").open().unwrap().label, "Write multiple registers");
