@@ -125,7 +125,7 @@ async fn the_table_goes_by_keyboard() -> Result {
     page.press(Key::Down + "").await?;
     page.until(".entry h3", "Mapped registers").await?;
     page.press(Key::End + "").await?;
-    page.until(".entry h3", "Write mapping entry 99").await?;
+    page.until(".entry h3", "mapping entry 99").await?;
     let in_sight = "const row = document.querySelector('.found [aria-selected=true]').getBoundingClientRect(); \
                     const list = document.querySelector('.found').getBoundingClientRect(); \
                     return row.top >= list.top && row.bottom <= list.bottom";
@@ -138,7 +138,7 @@ async fn the_table_goes_by_keyboard() -> Result {
     page.picture("reference-table-dark").await?;
     // A reload, and back, lead to the same.
     page.driver.refresh().await?;
-    page.until(".entry h3", "Write mapping entry 99").await?;
+    page.until(".entry h3", "mapping entry 99").await?;
     page.close().await
 }
 

@@ -32,6 +32,13 @@ pub fn Table(
     let resized = window_event_listener(ev::resize, move |_| high.set(row_height()));
     on_cleanup(move || resized.remove());
     let total = Memo::new(move |_| rows.with(Vec::len));
+    let limited = Memo::new(move |_| {
+        let limits = |item: &Arc<Item>| match &item.about {
+            About::Register(register) => register.spec.limits.is_some() || !register.spec.unit.is_empty(),
+            _ => false,
+        };
+        rows.with(|rows| rows.iter().any(limits))
+    });
     let measure = move || {
         if let Some(list) = list.get_untracked() {
             scrolled.set(list.scroll_top().max(0) as usize);
@@ -121,6 +128,7 @@ pub fn Table(
             node_ref=list
             class="found"
             class:with-book=move || with_book.get()
+            class:no-limits=move || !limited.get()
             role="grid"
             tabindex="0"
             aria-label="What was found"
