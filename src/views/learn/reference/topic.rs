@@ -153,7 +153,11 @@ fn example(
                     || said.protocol.label == item.label
             }
         };
-        same && said.direction == layout.direction && said.protocol.key == carrier.key && !said.is_faulty
+        same && layout.fits(&said.bytes)
+            && !said.sentence.contains("still")
+            && said.direction == layout.direction
+            && said.protocol.key == carrier.key
+            && !said.is_faulty
     };
     SAMPLES.iter().find(fits).map(|(sample, said)| (sample, said))
 }
