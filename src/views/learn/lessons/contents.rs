@@ -170,7 +170,7 @@ pub fn Overview() -> impl IntoView {
             <header>
                 <h2>"Field buses, byte by byte"</h2>
                 <p>
-                    "Short lessons on real telegrams. In each you first look, then fill in, then build, then mend something that is broken. "
+                    "Short lessons on real telegrams. In each you first look, then fill in, then build, then mend one that is damaged. "
                     {so_far}
                 </p>
                 {go_on}

@@ -130,14 +130,14 @@ fn Place(task: Task, exercise: Asked) -> impl IntoView {
                 }
             })
             .into_any(),
-        Ask::Bits { from, to, float } => {
+        Ask::Bits { from, to, reading } => {
             let width = from.len();
             let start = number(&from);
             let value = Signal::derive(move || task.text().map_or(start, |text| number(&bytes(&text))));
             let on_set = Callback::new(move |value: u32| {
                 task.answer(Answer::Text(hex(&value.to_be_bytes()[4 - width..])));
             });
-            view! { <Switches value on_set width float wanted=number(&to) /> }.into_any()
+            view! { <Switches value on_set width reading wanted=number(&to) /> }.into_any()
         }
     }
 }
@@ -250,7 +250,7 @@ fn Pointed(task: Task) -> impl IntoView {
         }
         at
     });
-    view! { <ByteStrip blocks=cells lights label="Choose a byte. Arrow keys go from byte to byte." /> }
+    view! { <ByteStrip blocks=cells lights size="bare" label="Choose a byte. Arrow keys go from byte to byte." /> }
 }
 
 /// A telegram with fields left blank.

@@ -20,7 +20,7 @@ use exercise::Exercise;
 use files::Refusal;
 pub use state::LessonsState;
 use state::Here;
-use step::StepText;
+use step::{Around, StepText};
 
 #[component]
 pub fn Lessons() -> impl IntoView {
@@ -42,11 +42,14 @@ pub fn Lessons() -> impl IntoView {
 /// A lesson: the list of all, the step, and its task.
 #[component]
 fn Open(here: Here) -> impl IntoView {
+    // Without anything lit, the task is what the step is about.
+    let bare = here.step().is_some_and(|step| step.telegrams.is_empty() && step.log.is_empty());
     view! {
-        <div class="lesson">
+        <div class="lesson" class:bare=bare>
             <Contents here=here.clone() />
             <StepText here=here.clone() />
-            <Exercise here />
+            <Exercise here=here.clone() />
+            <Around here />
         </div>
     }
 }

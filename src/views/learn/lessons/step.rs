@@ -61,7 +61,6 @@ pub fn StepText(here: Here) -> impl IntoView {
             <div class="prose">{text}</div>
             {body}
             <Elsewhere step shown report />
-            <Around here />
         </article>
     }
     .into_any()
@@ -160,7 +159,7 @@ fn Elsewhere(step: Step, shown: Vec<Shown>, report: Arc<Report>) -> impl IntoVie
 
 /// Back, and the lesson as a file.
 #[component]
-fn Around(here: Here) -> impl IntoView {
+pub fn Around(here: Here) -> impl IntoView {
     let course = here.course.clone();
     let lesson = course.lesson.clone();
     let back = here.step.checked_sub(1).map(|step| link_to(&lesson, step));
