@@ -52,7 +52,14 @@ pub fn StepText(here: Here) -> impl IntoView {
             }
             .into_any()
         }
-        Show::Log => view! { <LogLines step=step.clone() /> }.into_any(),
+        Show::Log => {
+            let walk = (!shown.is_empty()).then(|| view! { <Walk step=step.clone() shown=shown.clone() /> });
+            view! {
+                <LogLines step=step.clone() />
+                {walk}
+            }
+            .into_any()
+        }
     };
     view! {
         <article class="step" aria-labelledby="step-title">
