@@ -181,7 +181,7 @@ fn Typed(task: Task, #[prop(into)] start: String, label: &'static str) -> impl I
     let off = move || task.attempt.with(|it| matches!(it.verdict, Some(Verdict::Wrong(_) | Verdict::Unread(_))));
     let value = move || task.text().unwrap_or_else(|| start.clone());
     view! {
-        <label class="entry">
+        <label class="typed">
             <span class="name">{label}</span>
             <input
                 class="input mono"
