@@ -49,7 +49,7 @@ fn Sign(number: usize, course: Course) -> impl IntoView {
     }
 }
 
-/// All lessons, beside the one that is open.
+/// All lessons, beside the one that is open. Where there is no room for them, "Lessons" leads to the first page.
 #[component]
 pub fn Contents(here: Here) -> impl IntoView {
     let state = state();
@@ -76,17 +76,9 @@ pub fn Contents(here: Here) -> impl IntoView {
     };
     view! {
         <nav class="contents" aria-label="All lessons">
-            <details open=wide()>
-                <summary>"All lessons"</summary>
-                {move || grouped(state.courses()).into_iter().map(&group).collect_view()}
-            </details>
+            {move || grouped(state.courses()).into_iter().map(&group).collect_view()}
         </nav>
     }
-}
-
-/// Whether there is room for the list beside a step.
-fn wide() -> bool {
-    window().match_media("(width >= 1000px)").ok().flatten().is_some_and(|media| media.matches())
 }
 
 /// The first page.

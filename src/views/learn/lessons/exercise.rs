@@ -75,24 +75,26 @@ pub fn Exercise(here: Here) -> impl IntoView {
     let right = exercise.answer(&step);
     view! {
         <aside class="task" aria-labelledby="task-title">
-            <p class="tag">
-                <Icon glyph=Glyph::Edit />
-                "Your turn"
-            </p>
-            <h3 id="task-title">
-                <Words text=question />
-            </h3>
-            <form on:submit=submit>
-                {answer}
-                <Outcome task then here />
-                <div class="actions">
-                    <button type="submit" class="button main">
-                        "Check my answer"
-                    </button>
-                    <HintButton task count=hints.len() right />
-                </div>
-            </form>
-            <Hints task hints />
+            <div class="stays">
+                <p class="tag">
+                    <Icon glyph=Glyph::Edit />
+                    "Your turn"
+                </p>
+                <h3 id="task-title">
+                    <Words text=question />
+                </h3>
+                <form on:submit=submit>
+                    {answer}
+                    <Outcome task then here />
+                    <div class="actions">
+                        <button type="submit" class="button main">
+                            "Check my answer"
+                        </button>
+                        <HintButton task count=hints.len() right />
+                    </div>
+                </form>
+                <Hints task hints />
+            </div>
         </aside>
     }
     .into_any()
