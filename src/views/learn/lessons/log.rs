@@ -6,11 +6,8 @@ use buslens_trainer::lesson::Step;
 
 #[component]
 pub fn LogLines(step: Step) -> impl IntoView {
-    let lines: Vec<_> = step
-        .log
-        .lines()
-        .map(|line| view! { <li><code>{line.to_owned()}</code></li> })
-        .collect();
+    let lines: Vec<_> =
+        step.log.lines().map(|line| view! { <li><code>{line.to_owned()}</code></li> }).collect();
     let found: Vec<_> = step.findings().into_iter().map(|(_, said)| view! { <li>{said}</li> }).collect();
     // The answer, for who is done.
     let found = (!found.is_empty()).then(|| {
