@@ -62,6 +62,9 @@ impl Exercise {
     /// Whether `answer` is right; otherwise what is off. The bytes that somebody set are given as text.
     pub fn grade(&self, step: &Step, answer: &Answer) -> Verdict {
         match (&self.ask, answer) {
+            (Ask::Choose { .. } | Ask::Point { .. }, Answer::Text(_)) => {
+                Verdict::Unread(message!("nothing is chosen yet"))
+            }
             (Ask::Point { field, wrong }, Answer::Byte(at)) => point(step, field, wrong, *at),
             (Ask::Bits { to, reading, .. }, Answer::Text(text)) => set(to, *reading, &steps::bytes(text)),
             (Ask::Number { wrong, .. }, Answer::Text(text))
@@ -74,6 +77,15 @@ impl Exercise {
                 Some(task) => grade(&task, answer),
                 None => Verdict::Unread(message!("there is no answer to this")),
             },
+        }
+    }
+
+    /// What stands in the place for the answer at first.
+    pub fn start(&self) -> String {
+        match &self.ask {
+            Ask::Repair { damaged, .. } => damaged.clone(),
+            Ask::Bits { from, .. } => hex(from),
+            _ => String::new(),
         }
     }
 
