@@ -12,7 +12,7 @@ use crate::components::byte_strip::{Block, ByteStrip, Chosen, Lights, blocks};
 use crate::components::icon::{Glyph, Icon};
 use crate::views::learn::LearnState;
 use buslens::field::{Span, hex};
-use buslens::tool::steps::bytes;
+use buslens::tool::steps::{CHECKS, bytes};
 use buslens_trainer::lesson::{Ask, Exercise as Asked};
 use buslens_trainer::{Answer, Remark, Telegram, Verdict};
 
@@ -41,7 +41,8 @@ impl Task {
         let here = self.here.get_value();
         let answer = self.attempt.with_untracked(|it| it.answer.clone());
         // Who changed nothing hands in what was there.
-        let start = || here.step().and_then(|step| step.exercise.as_ref()).map_or(String::new(), Asked::start);
+        let start =
+            || here.step().and_then(|step| step.exercise.as_ref()).map_or(String::new(), Asked::start);
         let answer = answer.unwrap_or_else(|| Answer::Text(start()));
         self.state.grade(&here, answer);
     }
@@ -207,11 +208,23 @@ fn Typed(task: Task, #[prop(into)] start: String, label: &'static str) -> impl I
 #[component]
 fn Live(task: Task, telegram: Telegram, #[prop(into)] start: String) -> impl IntoView {
     let lights = Lights::new();
+    let check = telegram.check().filter(|check| check.covered.to + check.width == telegram.bytes.len());
+    let typed = Memo::new(move |_| bytes(&task.text().unwrap_or_else(|| start.clone())));
+    // Its place is kept free until all before it is there.
+    let added = Memo::new(move |_| {
+        let check = check.filter(|check| typed.with(Vec::len) <= check.covered.to)?;
+        let algorithm = CHECKS.iter().find(|it| it.kind == check.kind)?;
+        Some(typed.with(|typed| algorithm.wire(typed).to_be_bytes()[8 - check.width..].to_vec()))
+    });
     let shown = Memo::new(move |_| {
-        let typed = bytes(&task.text().unwrap_or_else(|| start.clone()));
-        let report = telegram.with(typed.clone()).report();
-        let detail = (!typed.is_empty()).then(|| report.detail(report.telegrams.len() - 1)).flatten();
-        detail.map_or(Vec::new(), |detail| blocks(&detail, &typed))
+        let mut whole = typed.get();
+        if whole.is_empty() {
+            return Vec::new();
+        }
+        whole.extend(added.get().unwrap_or_default());
+        let report = telegram.with(whole.clone()).report();
+        let detail = report.telegrams.len().checked_sub(1).and_then(|last| report.detail(last));
+        detail.map_or(Vec::new(), |detail| blocks(&detail, &whole))
     });
     // What is off lights up.
     Effect::new(move |_| {
@@ -223,6 +236,9 @@ fn Live(task: Task, telegram: Telegram, #[prop(into)] start: String) -> impl Int
     view! {
         <Show when=move || !shown.with(Vec::is_empty)>
             <ByteStrip blocks=shown lights size="small" label="The bytes so far. Arrow keys go from byte to byte." />
+            <Show when=move || added.with(Option::is_some)>
+                <p class="note">"The checksum is added by the page."</p>
+            </Show>
         </Show>
     }
 }
