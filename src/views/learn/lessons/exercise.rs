@@ -160,7 +160,7 @@ fn Choices(task: Task, texts: Vec<String>) -> impl IntoView {
     let choice = move |(index, text): (usize, String)| {
         let here = move || chosen() == Some(index);
         view! {
-            <li class:right=move || here() && graded() == Some(true) class:off=move || here() && graded() == Some(false)>
+            <div class:right=move || here() && graded() == Some(true) class:off=move || here() && graded() == Some(false)>
                 <label>
                     <input
                         type="radio"
@@ -172,13 +172,13 @@ fn Choices(task: Task, texts: Vec<String>) -> impl IntoView {
                         <Words text />
                     </span>
                 </label>
-            </li>
+            </div>
         }
     };
     view! {
-        <ol class="choices" role="radiogroup" aria-labelledby="task-title">
+        <div class="choices" role="radiogroup" aria-labelledby="task-title">
             {texts.into_iter().enumerate().map(choice).collect_view()}
-        </ol>
+        </div>
     }
 }
 
