@@ -162,7 +162,7 @@ pub fn Overview() -> impl IntoView {
     view! {
         <div class="overview">
             <header>
-                <h2>"Field buses, byte by byte"</h2>
+                <h2 tabindex="-1">"Field buses, byte by byte"</h2>
                 <p>
                     "Short lessons on real telegrams. In each you first look, then fill in, then build, then mend one that is damaged. "
                     {so_far}

@@ -15,6 +15,7 @@ mod words;
 use leptos::prelude::*;
 
 use super::{LearnState, Part};
+use crate::components::roving;
 use contents::{Contents, Overview};
 use exercise::Exercise;
 use files::Refusal;
@@ -27,6 +28,18 @@ pub fn Lessons() -> impl IntoView {
     let learn = expect_context::<LearnState>();
     let state = learn.lessons;
     let place = Memo::new(move |_| learn.place(Part::Lessons));
+    // Another step begins at its top, also for who reads with the ears.
+    Effect::new(move |before: Option<()>| {
+        place.track();
+        if before.is_some() {
+            request_animation_frame(|| {
+                window().scroll_to_with_x_and_y(0.0, 0.0);
+                if let Some(body) = document().body() {
+                    roving::focus(&body, ".lessons h2", 0);
+                }
+            });
+        }
+    });
     let shown = move || match state.find(&place.get()) {
         Some(here) => view! { <Open here /> }.into_any(),
         None => view! { <Overview /> }.into_any(),

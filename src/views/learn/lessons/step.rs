@@ -64,7 +64,7 @@ pub fn StepText(here: Here) -> impl IntoView {
     view! {
         <article class="step" aria-labelledby="step-title">
             <Way here=here.clone() />
-            <h2 id="step-title">{step.title.clone()}</h2>
+            <h2 id="step-title" tabindex="-1">{step.title.clone()}</h2>
             <div class="prose">{text}</div>
             {body}
             <Elsewhere step shown report />
