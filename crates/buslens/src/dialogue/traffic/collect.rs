@@ -4,6 +4,7 @@ use super::conversation;
 use super::entry::{self, Entry, Hint, NO_TIME, NOBODY, Role, number};
 use super::judge::{Shapes, Weak};
 use super::lane::{Carries, Lane, PAUSE, Row};
+use super::pieces::Found;
 use crate::field::{Direction, Facts};
 use crate::frame::split::{Splitter, Waiting, can_split};
 use crate::frame::{Protocol, Settings, Verdict, modbus_rtu};
@@ -80,6 +81,8 @@ pub struct Traffic {
     /// The line of the last piece of a text, its bytes, and who sent them: what is written twice in a line is
     /// one telegram.
     pub(super) latest_piece: (u32, Vec<u8>, Hint),
+    /// The telegrams of the last piece: a place to work in, so that pieces do not allocate.
+    pub(super) found: Vec<Found>,
     /// How many bytes the columns of a text had.
     pub(super) in_columns: usize,
     /// What other protocols were seen, by their place in [`FOREIGN`](crate::dialogue::foreign::FOREIGN).
@@ -120,6 +123,7 @@ impl Traffic {
             passed: Vec::new(),
             gone: Vec::new(),
             latest_piece: (0, Vec::new(), Hint::None),
+            found: Vec::new(),
             in_columns: 0,
             foreign_protocols: [0; crate::dialogue::foreign::FOREIGN.len()],
         }

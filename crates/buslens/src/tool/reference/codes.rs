@@ -213,6 +213,7 @@ impl Codes {
             names: format!("{}\n{number}", code.of),
             notes: code.note.to_owned(),
             number,
+            folded: String::new(),
             about: About::Code(code),
         });
     }

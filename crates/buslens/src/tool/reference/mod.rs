@@ -121,6 +121,8 @@ pub struct Item {
     /// Words that it is found by besides its label, the better ones first: names, then what is said of it.
     names: String,
     notes: String,
+    /// Label, names and notes as [`fold`] writes them: what is in none of them is not looked for any closer.
+    folded: String,
 }
 
 /// What it is.
@@ -192,7 +194,7 @@ impl Item {
 
     fn named(&self, word: &Word) -> i32 {
         let plain = word.plain.as_str();
-        if plain.is_empty() {
+        if plain.is_empty() || !self.folded.contains(plain) {
             return 0;
         }
         let scored = |text: &str, whole: i32, word: i32, begins: i32, inside: i32| {
@@ -262,6 +264,9 @@ pub fn items() -> Vec<Arc<Item>> {
             Book::Device(profile) => items.extend(registers::items(profile)),
         }
         items.extend(codes::items(book));
+    }
+    for item in &mut items {
+        item.folded = [&item.label, &item.names, &item.notes].map(|text| fold(text)).join(" ");
     }
     items.into_iter().map(Arc::new).collect()
 }

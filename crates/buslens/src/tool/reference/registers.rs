@@ -322,6 +322,7 @@ fn item(register: Register, label: String, also: &str) -> Item {
         numbers: numbers.chain(aliases.into_iter().map(|alias| (alias, alias))).collect(),
         names: format!("{}\n{also}\n{}", register.id, register.kind),
         notes: format!("{} {}", register.spec.note, parts.join(" ")),
+        folded: String::new(),
         about: About::Register(register),
     }
 }

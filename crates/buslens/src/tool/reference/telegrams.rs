@@ -257,6 +257,7 @@ fn item(
         numbers,
         names: topic.code.replace(", ", "\n"),
         notes: topic.note.to_owned(),
+        folded: String::new(),
         about: About::Telegram(topic),
     }
 }
