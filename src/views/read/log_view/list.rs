@@ -9,7 +9,7 @@ use crate::components::state_badge::StateBadge;
 use crate::views::read::ReadState;
 use crate::views::read::times::{clock, day_and_clock, delta, is_over_days};
 use buslens::field::Direction;
-use buslens::tool::log::Row;
+use buslens::tool::log::{Row, State};
 
 /// The height of a row in pixels; the stylesheet has the same.
 const HIGH: usize = 28;
@@ -229,7 +229,13 @@ fn ListRow(place: usize, row: Row, dated: bool) -> impl IntoView {
                 {unit
                     .map(|unit| {
                         view! {
-                            <button type="button" tabindex="-1" title="Only this unit" on:click=by_unit>
+                            <button
+                                type="button"
+                                tabindex="-1"
+                                title="Only this unit"
+                                aria-label=format!("unit {unit}")
+                                on:click=by_unit
+                            >
                                 {unit}
                             </button>
                         }
@@ -244,9 +250,15 @@ fn ListRow(place: usize, row: Row, dated: bool) -> impl IntoView {
                 {note} {before} <b>{value}</b>
             </span>
             <span role="gridcell" class="st">
-                <button type="button" tabindex="-1" title="Only such" on:click=by_state>
-                    <StateBadge state latency />
-                </button>
+                // A request without a word says nothing here.
+                {(state != State::Plain)
+                    .then(|| {
+                        view! {
+                            <button type="button" tabindex="-1" title="Only such" on:click=by_state>
+                                <StateBadge state latency />
+                            </button>
+                        }
+                    })}
             </span>
         </div>
     }
