@@ -217,7 +217,7 @@ fn Fields(rows: Vec<Row>, bits: Vec<&'static Spec>) -> impl IntoView {
         };
         let place = match row.offset {
             _ if row.size.is_around() => String::new(),
-            None => "behind that".to_owned(),
+            None => "then".to_owned(),
             Some(offset) if each > 1 => format!("{offset} to {}", offset + each - 1),
             Some(offset) => offset.to_string(),
         };
