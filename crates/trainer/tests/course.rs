@@ -135,7 +135,9 @@ fn gift(block: &str) -> Gift {
 }
 
 fn rounds() -> impl Iterator<Item = Round> {
-    Kind::ALL.into_iter().flat_map(|kind| LEVELS.map(|level| Round { kind, level, seed: Seed::new(77_777) }))
+    Kind::ALL
+        .into_iter()
+        .flat_map(|kind| LEVELS.map(move |level| Round { kind, level, seed: Seed::new(77_777) }))
 }
 
 #[test]
