@@ -313,7 +313,7 @@ impl Page {
             let found = std::fs::read_dir(folder)?.flatten().map(|entry| entry.path());
             let found = found.filter(|path| !before.contains(path));
             let whole = |path: &PathBuf| {
-                let ends = ["txt", "csv", "jsonl", "html", "pcapng", "log"];
+                let ends = ["txt", "csv", "jsonl", "html", "pcapng", "log", "xml"];
                 // Firefox holds its place with an empty one.
                 path.extension().is_some_and(|it| ends.iter().any(|end| it == *end))
                     && path.metadata().is_ok_and(|it| it.len() > 0)

@@ -10,12 +10,14 @@
 //! | [`practice`] | tasks without end, made of a seed; [`random`] numbers for them |
 //! | [`result`] | what came of a round, in eight letters |
 //! | [`course`] | tasks for Moodle |
+//! | [`fault`] | telegrams with a fault in them, for others to find |
 //!
 //! It is made of what [`buslens::tool`] offers, in the words of [`buslens::field`], and so it can never be wrong
 //! about a byte that the page shows.
 #![forbid(unsafe_code)]
 
 pub mod course;
+pub mod fault;
 pub mod grade;
 pub mod lesson;
 pub mod notation;

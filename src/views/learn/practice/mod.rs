@@ -1,6 +1,7 @@
 //! Practice: tasks without end, made from a seed.
 
 mod given;
+mod own;
 mod paper;
 mod question;
 mod results;
@@ -13,6 +14,7 @@ use leptos::prelude::*;
 use super::LearnState;
 use super::state::Part;
 use buslens_trainer::practice::NoRound;
+use own::Own;
 use paper::Paper;
 use question::{Done, Question};
 use results::Results;
@@ -32,6 +34,7 @@ pub fn Practice() -> impl IntoView {
         Ok(Where::Paper(round)) => view! { <Paper round /> }.into_any(),
         Ok(Where::Wall(round, index)) => view! { <Wall round index /> }.into_any(),
         Ok(Where::Results) => view! { <Results /> }.into_any(),
+        Err(_) if is_own(&place.get()) => view! { <Own place=place.get() /> }.into_any(),
         Err(NoRound::Newer) => {
             let refused = "This link is of a newer version of the page: reload the page, and open it again.";
             view! { <Start refused /> }.into_any()
@@ -47,6 +50,11 @@ pub fn Practice() -> impl IntoView {
             {shown}
         </section>
     }
+}
+
+/// Whether words of a link are about a telegram of somebody's own.
+fn is_own(place: &str) -> bool {
+    place.split('.').next() == Some(own::OWN)
 }
 
 /// Goes elsewhere in Practice.

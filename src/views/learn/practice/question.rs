@@ -6,7 +6,7 @@ use leptos::prelude::*;
 
 use super::given::{GivenPart, in_read, named};
 use super::go;
-use super::state::{Attempt, Outcome, Where};
+use super::state::{Attempt, Key, Outcome, Where};
 use crate::browser::file;
 use crate::components::byte_strip::{ByteStrip, Lights};
 use crate::components::copy_button::CopyButton;
@@ -20,9 +20,24 @@ use buslens_trainer::{Answer, Blank, Choice, Expected, Task, Telegram, Verdict, 
 #[component]
 pub fn Question(round: Round, index: usize) -> impl IntoView {
     let learn = expect_context::<LearnState>();
-    let state = learn.practice;
     let Some(task) = round.questions().into_iter().nth(index) else { return ().into_any() };
-    let attempt = Memo::new(move |_| state.attempt(round, index));
+    let (label, next) = match index + 1 < QUESTIONS {
+        true => ("Next question", Where::Question(round, index + 1)),
+        false => ("What came of it", Where::Done(round)),
+    };
+    view! {
+        <RoundBar round index=Some(index) />
+        <Asked task key=(round.place(), index) label on_next=Callback::new(move |()| go(learn, next)) />
+    }
+    .into_any()
+}
+
+/// A task: what is given, the answer, what there is to say to it, hints, and what comes next.
+#[component]
+pub fn Asked(task: Task, key: Key, label: &'static str, on_next: Callback<()>) -> impl IntoView {
+    let state = expect_context::<LearnState>().practice;
+    let key = StoredValue::new(key);
+    let attempt = Memo::new(move |_| key.with_value(|key| state.attempt(key)));
     let told = Memo::new(move |_| attempt.with(|attempt| attempt.outcome != Outcome::Open));
     let headline = NodeRef::<html::H3>::new();
     Effect::new(move |_| {
@@ -43,27 +58,19 @@ pub fn Question(round: Round, index: usize) -> impl IntoView {
     let given = given.collect_view();
     let question = task.question.clone();
     let task = StoredValue::new(task);
-    let next = move || match index + 1 < QUESTIONS {
-        true => go(learn, Where::Question(round, index + 1)),
-        false => go(learn, Where::Done(round)),
-    };
     view! {
-        <RoundBar round index=Some(index) />
         <article class="question">
             <div class="ask">
                 <h3 class="headline" tabindex="-1" node_ref=headline>
                     {question}
                 </h3>
                 {given}
-                <AnswerForm round index task lights />
+                <AnswerForm key attempt task lights />
                 <Said attempt task />
                 <div class="steps">
-                    <Show
-                        when=move || told.get()
-                        fallback=move || view! { <Help round index task /> }
-                    >
-                        <button type="button" class="button main" on:click=move |_| next()>
-                            {if index + 1 < QUESTIONS { "Next question" } else { "What came of it" }}
+                    <Show when=move || told.get() fallback=move || view! { <Help key attempt task /> }>
+                        <button type="button" class="button main" on:click=move |_| on_next.run(())>
+                            {label}
                             <Icon glyph=Glyph::Forward />
                         </button>
                     </Show>
@@ -72,7 +79,6 @@ pub fn Question(round: Round, index: usize) -> impl IntoView {
             <Hints attempt task />
         </article>
     }
-    .into_any()
 }
 
 /// Which round this is, its questions, and what can be done with it.
@@ -139,29 +145,30 @@ pub fn RoundBar(
 
 /// What somebody answers.
 #[component]
-fn AnswerForm(round: Round, index: usize, task: StoredValue<Task>, lights: Lights) -> impl IntoView {
-    let learn = expect_context::<LearnState>();
-    let state = learn.practice;
-    let attempt = Memo::new(move |_| state.attempt(round, index));
+fn AnswerForm(
+    key: StoredValue<Key>,
+    attempt: Memo<Attempt>,
+    task: StoredValue<Task>,
+    lights: Lights,
+) -> impl IntoView {
+    let state = expect_context::<LearnState>().practice;
+    let change = move |change: &dyn Fn(&mut Attempt)| key.with_value(|key| state.change(key, change));
     let done = Memo::new(move |_| attempt.with(|attempt| attempt.outcome != Outcome::Open));
     let enter = move |answer: Answer| {
-        state.change(round, index, |attempt| {
+        change(&|attempt| {
             // What was said is about another answer.
             if attempt.answer.as_ref() != Some(&answer) {
                 attempt.verdict = None;
             }
-            attempt.answer = Some(answer);
+            attempt.answer = Some(answer.clone());
         });
     };
     let check = move |event: SubmitEvent| {
         event.prevent_default();
-        let Some(answer) = state.attempt(round, index).answer else {
-            return state.change(round, index, |attempt| {
-                attempt.verdict = Some(task.with_value(|task| grade(task, &Answer::Text(String::new()))));
-            });
-        };
+        let answer = attempt.with_untracked(|attempt| attempt.answer.clone());
+        let answer = answer.unwrap_or(Answer::Text(String::new()));
         let verdict = task.with_value(|task| grade(task, &answer));
-        state.change(round, index, |attempt| take(attempt, verdict));
+        change(&|attempt| take(attempt, verdict.clone()));
     };
     // A byte is chosen in the strip.
     if task.with_value(|task| matches!(task.expected, Expected::Byte { .. })) {
@@ -441,10 +448,9 @@ fn Told(task: StoredValue<Task>) -> impl IntoView {
 
 /// The next hint, and at last the answer.
 #[component]
-fn Help(round: Round, index: usize, task: StoredValue<Task>) -> impl IntoView {
-    let learn = expect_context::<LearnState>();
-    let state = learn.practice;
-    let attempt = Memo::new(move |_| state.attempt(round, index));
+fn Help(key: StoredValue<Key>, attempt: Memo<Attempt>, task: StoredValue<Task>) -> impl IntoView {
+    let state = expect_context::<LearnState>().practice;
+    let change = move |change: fn(&mut Attempt)| key.with_value(|key| state.change(key, change));
     let all = task.with_value(|task| task.hints.len());
     let shown = move || attempt.with(|attempt| attempt.hints);
     view! {
@@ -452,7 +458,7 @@ fn Help(round: Round, index: usize, task: StoredValue<Task>) -> impl IntoView {
             <button
                 type="button"
                 class="button"
-                on:click=move |_| state.change(round, index, |attempt| attempt.hints += 1)
+                on:click=move |_| change(|attempt| attempt.hints += 1)
             >
                 <Icon glyph=Glyph::Help />
                 {move || format!("Hint {} of {all}", shown() + 1)}
@@ -462,7 +468,7 @@ fn Help(round: Round, index: usize, task: StoredValue<Task>) -> impl IntoView {
             <button
                 type="button"
                 class="button plain"
-                on:click=move |_| state.change(round, index, |attempt| attempt.outcome = Outcome::Shown)
+                on:click=move |_| change(|attempt| attempt.outcome = Outcome::Shown)
             >
                 "Show the answer"
             </button>

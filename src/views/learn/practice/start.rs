@@ -4,9 +4,11 @@ use leptos::prelude::*;
 use web_sys::js_sys::Math;
 
 use super::go;
+use super::own::OWN;
 use super::state::Where;
 use crate::components::icon::{Glyph, Icon};
 use crate::views::learn::LearnState;
+use crate::views::learn::state::Part;
 use buslens::field::count;
 use buslens_trainer::practice::{Kind, LEVELS, QUESTIONS, Round, Seed};
 
@@ -74,10 +76,16 @@ pub fn Start(
             <p>
                 "Begin a round to get its link: it asks the same questions on every machine. In the round you can print a handout with its answer key, put it on the wall, or take it as a file for Moodle. Two seeds of a level are equally hard."
             </p>
-            <button type="button" class="button" on:click=move |_| go(learn, Where::Results)>
-                <Icon glyph=Glyph::Open />
-                "Results of a group"
-            </button>
+            <div class="acts">
+                <button type="button" class="button" on:click=move |_| learn.go_to(Part::Practice, OWN.to_owned())>
+                    <Icon glyph=Glyph::Edit />
+                    "Hide a fault in a telegram of your own"
+                </button>
+                <button type="button" class="button" on:click=move |_| go(learn, Where::Results)>
+                    <Icon glyph=Glyph::Open />
+                    "Results of a group"
+                </button>
+            </div>
         </section>
     }
 }

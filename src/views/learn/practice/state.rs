@@ -115,13 +115,17 @@ pub struct Attempt {
     pub outcome: Outcome,
 }
 
+/// Which question: the place of its round, or of a task by itself, and its index there.
+pub type Key = (String, usize);
+
 /// What came of the questions; it outlasts every switch of views.
 #[derive(Clone, Copy)]
 pub struct PracticeState {
-    /// By the place of the round and the index of the question.
-    attempts: RwSignal<HashMap<(String, usize), Attempt>>,
+    attempts: RwSignal<HashMap<Key, Attempt>>,
     /// What was pasted into the table of results.
     pub codes: RwSignal<String>,
+    /// The telegram that is to become a task.
+    pub own: RwSignal<String>,
     /// The next question gets the focus: somebody went on to it.
     pub moved: StoredValue<bool>,
 }
@@ -146,13 +150,13 @@ impl PracticeState {
         Self {
             attempts: RwSignal::new(attempts),
             codes: RwSignal::new(String::new()),
+            own: RwSignal::new(String::new()),
             moved: StoredValue::new(false),
         }
     }
 
-    pub fn attempt(self, round: Round, index: usize) -> Attempt {
-        let key = (round.place(), index);
-        self.attempts.with(|all| all.get(&key).cloned().unwrap_or_default())
+    pub fn attempt(self, key: &Key) -> Attempt {
+        self.attempts.with(|all| all.get(key).cloned().unwrap_or_default())
     }
 
     /// What came of each question of a round.
@@ -173,8 +177,8 @@ impl PracticeState {
         })
     }
 
-    pub fn change(self, round: Round, index: usize, change: impl FnOnce(&mut Attempt)) {
-        self.attempts.update(|all| change(all.entry((round.place(), index)).or_default()));
+    pub fn change(self, key: &Key, change: impl FnOnce(&mut Attempt)) {
+        self.attempts.update(|all| change(all.entry(key.clone()).or_default()));
         self.keep();
     }
 
@@ -190,7 +194,9 @@ impl PracticeState {
         let text = self.attempts.with_untracked(|all| {
             let mut rounds: Vec<&String> = Vec::new();
             for ((place, _), attempt) in all {
-                if attempt.outcome != Outcome::Open && !rounds.contains(&place) {
+                // Tasks by themselves are not kept: there may be any number of them.
+                let is_round = Round::of(place).is_ok();
+                if attempt.outcome != Outcome::Open && is_round && !rounds.contains(&place) {
                     rounds.push(place);
                 }
             }
