@@ -47,21 +47,45 @@ const MANUALS: [(&str, &str, &str); 3] = [
 /// The key of what is of no device.
 const STANDARDS: &str = "standards";
 
-/// What the sections of the Memograph's manual are about.
-const SECTIONS: [(&str, &str); 13] = [
-    ("2.6.1", "Universal channels are written"),
-    ("2.6.2", "Digital inputs are written"),
-    ("2.6.3", "Universal channels are read"),
-    ("2.6.4", "Maths channels are read"),
-    ("2.6.5", "Digital inputs are read"),
-    ("2.6.6", "Totals of digital inputs"),
-    ("2.6.7", "Totals of universal channels"),
-    ("2.6.8", "Totals of maths channels"),
-    ("2.6.9", "Relays are read"),
-    ("2.6.10", "A relay is switched"),
-    ("2.6.11", "Limits are changed, step by step, and read back"),
-    ("2.6.12", "A text for the event list"),
-    ("2.6.13", "Batches are started, named and stopped"),
+/// What sections of the manuals are about, by the key of the manual.
+const SECTIONS: &[(&str, &str, &str)] = &[
+    ("memograph-rsg45", "2.6.1", "Universal channels are written"),
+    ("memograph-rsg45", "2.6.2", "Digital inputs are written"),
+    ("memograph-rsg45", "2.6.3", "Universal channels are read"),
+    ("memograph-rsg45", "2.6.3 and 3", "A value or a status by itself"),
+    ("memograph-rsg45", "2.6.4", "Maths channels are read"),
+    ("memograph-rsg45", "2.6.5", "Digital inputs are read"),
+    ("memograph-rsg45", "2.6.6", "Totals of digital inputs"),
+    ("memograph-rsg45", "2.6.7", "Totals of universal channels"),
+    ("memograph-rsg45", "2.6.8", "Totals of maths channels"),
+    ("memograph-rsg45", "2.6.9", "Relays are read"),
+    ("memograph-rsg45", "2.6.10", "A relay is switched"),
+    ("memograph-rsg45", "2.6.11", "Limits are changed, step by step, and read back"),
+    ("memograph-rsg45", "2.6.12", "A text for the event list"),
+    ("memograph-rsg45", "2.6.13", "Batches are started, named and stopped"),
+    ("memograph-rsg45", "2.6.14", "What the status of a value says"),
+    ("keb-f5-profibus", "6.1", "Commands to all slaves of a group"),
+    ("keb-f5-profibus", "6.3", "Data exchange"),
+    ("keb-f5-profibus", "6.3 and 7.4", "Inputs and outputs are looked at"),
+    ("keb-f5-profibus", "7.1", "Start-up: parameters"),
+    ("keb-f5-profibus", "7.2", "Start-up: configuration"),
+    ("keb-f5-profibus", "7.3", "Start-up: diagnosis"),
+    ("keb-f5-profibus", "7.4", "Jobs of the parameter channel"),
+    ("keb-f5-profibus", "7.4.1 and 7.4.3", "Values of 2 and of 4 bytes"),
+    ("keb-f5-profibus", "7.5.1", "A sequence of jobs: one is rejected, one written, one read"),
+    ("keb-f5-profibus", "9.1", "Parameters of the operator"),
+    ("keb-f5-profibus", "9.1.1", "What process data carry"),
+    ("keb-f5-profibus", "12.4", "Errors"),
+    ("keb-f5-modbus", "2.3", "Registers through the mapping lists"),
+    ("keb-f5-modbus", "2.3 and 3", "Registers through the mapping lists"),
+    ("keb-f5-modbus", "2.4", "Functions 100 and 101"),
+    ("keb-f5-modbus", "2.4 and 4.2", "Exceptions of its own"),
+    ("keb-f5-modbus", "2.5 and 3", "Watchdog"),
+    ("keb-f5-modbus", "3", "Parameters of the operator"),
+    (STANDARDS, "2.5.2", "Modbus ASCII"),
+    (STANDARDS, "3.1.3", "Modbus TCP"),
+    (STANDARDS, "4.1", "A PDU by itself"),
+    (STANDARDS, "7", "Exceptions"),
 ];
 
 impl Narrowed {
@@ -226,21 +250,29 @@ fn groups(found: &[usize]) -> Vec<AnyView> {
             manual = &sample.manual;
             shown.push(view! { <h4 class="manual">{manual}</h4> }.into_any());
         }
-        let title =
-            SECTIONS.iter().find(|(section, _)| *section == sample.section && key_of(sample) == MANUALS[0].0);
+        let title = title(group);
         let rows = group.iter().map(|at| row(&SAMPLES[*at].0, &SAMPLES[*at].1)).collect_view();
         let section = sample.section.clone();
         let heading = (!section.is_empty()).then(|| {
             view! {
                 <h5>
                     <span class="number">{section}</span>
-                    {title.map(|(_, title)| *title)}
+                    {title}
                 </h5>
             }
         });
         shown.push(view! { {heading} <ul class="samples">{rows}</ul> }.into_any());
     }
     shown
+}
+
+/// What a section is about: as it is called here, or the kind that all its telegrams are of.
+fn title(group: &[usize]) -> Option<&'static str> {
+    let (sample, first) = &SAMPLES[*group.first()?];
+    let named =
+        SECTIONS.iter().find(|(key, section, _)| *key == key_of(sample) && *section == sample.section);
+    let alike = group.iter().all(|at| SAMPLES[*at].1.kind == first.kind);
+    named.map(|(.., title)| *title).or_else(|| alike.then_some(first.kind.as_str()))
 }
 
 fn row(sample: &'static Sample, said: &'static Said) -> AnyView {
@@ -283,13 +315,21 @@ fn slipped(sample: &Sample, slip: &Slip) -> AnyView {
                 <Icon glyph=Glyph::Warning />
                 "misprinted"
             </span>
-            <span>"In print " {slip.what.clone()} ". Corrected:"</span>
+            <span>{capital(&slip.what)} ". Corrected:"</span>
             <a href=href(View::Read, &sample.corrected(slip)) title="Open the corrected telegram in Read">
                 <code>{hex(&slip.right)}</code>
             </a>
         </p>
     }
     .into_any()
+}
+
+fn capital(text: &str) -> String {
+    let mut text = text.to_owned();
+    if let Some(first) = text.get_mut(..1) {
+        first.make_ascii_uppercase();
+    }
+    text
 }
 
 #[cfg(test)]
@@ -308,9 +348,13 @@ mod tests {
     fn every_printed_telegram_is_in_it() {
         let printed = |key: &str| SAMPLES.iter().filter(|(it, _)| it.printed && key_of(it) == key).count();
         assert_eq!((printed("memograph-rsg45"), printed("keb-f5-profibus")), (71, 15));
-        let sections: Vec<&str> = SECTIONS.map(|(section, _)| section).to_vec();
-        let of_memograph = SAMPLES.iter().filter(|(it, _)| it.printed && key_of(it) == "memograph-rsg45");
-        assert!(of_memograph.into_iter().all(|(it, _)| sections.contains(&it.section.as_str())));
+        let of_devices = SAMPLES.iter().filter(|(it, _)| key_of(it) != STANDARDS);
+        let named = |it: &Sample| {
+            SECTIONS.iter().any(|(key, section, _)| (*key, *section) == (key_of(it), &it.section))
+        };
+        for (sample, _) in of_devices {
+            assert!(named(sample), "{}, {} has no title", sample.manual, sample.section);
+        }
         let narrowed = Narrowed::of(".misprint");
         assert_eq!(SAMPLES.iter().filter(|(sample, said)| narrowed.has(sample, said)).count(), 15);
     }

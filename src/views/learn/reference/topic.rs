@@ -13,7 +13,7 @@ use crate::components::icon::{Glyph, Icon};
 use crate::components::segments::Segments;
 use crate::components::telegram::Shown;
 use crate::views::learn::gallery::SAMPLES;
-use buslens::field::{Direction, Message, Name};
+use buslens::field::{Direction, Message, Name, Spec};
 use buslens::tool::gallery::{Said, Sample};
 use buslens::tool::reference::{About, Item, Layout, Topic};
 use buslens::tool::{Protocol, Row, Size, decode};
@@ -30,6 +30,8 @@ pub fn TopicPage(item: Arc<Item>) -> impl IntoView {
     let choose = Callback::new(move |at| carrier.set(at));
     let neighbours = neighbours(&item);
     let (label, code, note, said_by) = (item.label.clone(), topic.code.clone(), topic.note, topic.source);
+    // Its telegrams say it themselves.
+    let repeated = topic.layouts(carriers[0]).iter().any(|layout| layout.note == note);
     let draft = topic.draft().map(|link| {
         view! {
             <a class="button" href=href(View::Build, &link)>
@@ -55,20 +57,28 @@ pub fn TopicPage(item: Arc<Item>) -> impl IntoView {
             let carrier = carriers[carrier.get().min(carriers.len() - 1)];
             let (usual, others): (Vec<Layout>, Vec<Layout>) =
                 topic.layouts(carrier).into_iter().partition(|layout| !layout.title.contains("where set so"));
-            let telegram = |layout: Layout| {
+            // What bits say is told once.
+            let mut told: Vec<&'static Spec> = Vec::new();
+            let mut telegram = |layout: Layout| {
                 let example = example(&item, &topic, &layout, carrier);
-                view! { <Telegram layout example /> }
+                let mut bits: Vec<&'static Spec> = layout.rows.iter().map(|row| row.spec).collect();
+                bits.retain(|spec| {
+                    !spec.bits.is_empty() && !told.iter().any(|other| std::ptr::eq(*other, *spec))
+                });
+                told.extend(&bits);
+                view! { <Telegram layout bits example /> }
             };
+            let usual = usual.into_iter().map(&mut telegram).collect_view();
             let others = (!others.is_empty()).then(|| {
                 view! {
                     <details class="other-layouts">
                         <summary>"Other layouts that a device can be set to under Devices"</summary>
-                        {others.into_iter().map(telegram).collect_view()}
+                        {others.into_iter().map(&mut telegram).collect_view()}
                     </details>
                 }
             });
             view! {
-                {usual.into_iter().map(telegram).collect_view()}
+                {usual}
                 {others}
             }
         }
@@ -94,7 +104,7 @@ pub fn TopicPage(item: Arc<Item>) -> impl IntoView {
                     </button>
                 </div>
             </header>
-            <p>{note}</p>
+            {(!repeated).then(|| view! { <p>{note}</p> })}
             {layouts}
             <footer>{source(said_by)}</footer>
         </article>
@@ -151,20 +161,37 @@ fn example(
                     || said.protocol.label == item.label
             }
         };
-        same && said.direction == layout.direction && said.protocol.key == carrier.key && !said.is_faulty
+        same && layout.fits(&said.bytes)
+            && !said.sentence.contains("still")
+            && said.direction == layout.direction
+            && said.protocol.key == carrier.key
+            && !said.is_faulty
     };
     SAMPLES.iter().find(fits).map(|(sample, said)| (sample, said))
 }
 
 /// A telegram: its bytes as a diagram, its fields as a table, an example.
 #[component]
-fn Telegram(layout: Layout, example: Option<(&'static Sample, &'static Said)>) -> impl IntoView {
+fn Telegram(
+    layout: Layout,
+    /// The numbers whose bits are told here.
+    bits: Vec<&'static Spec>,
+    example: Option<(&'static Sample, &'static Said)>,
+) -> impl IntoView {
     let arrow = match layout.direction {
         Direction::Request => "→",
         Direction::Response => "←",
     };
     let note = (!layout.note.is_empty()).then(|| view! { <p class="note">{layout.note}</p> });
     let rows = layout.rows.clone();
+    let drawn = match rows.is_empty() {
+        true => view! { <p>"It has no data: the access points in its frame say all."</p> }.into_any(),
+        false => view! {
+            <Diagram rows=layout.rows />
+            <Fields rows bits />
+        }
+        .into_any(),
+    };
     view! {
         <section class="telegram">
             <h4>
@@ -172,15 +199,14 @@ fn Telegram(layout: Layout, example: Option<(&'static Sample, &'static Said)>) -
                 {layout.title}
             </h4>
             {note}
-            <Diagram rows=layout.rows />
-            <Fields rows />
+            {drawn}
             {example.map(|(sample, said)| view! { <Example sample said /> })}
         </section>
     }
 }
 
 #[component]
-fn Fields(rows: Vec<Row>) -> impl IntoView {
+fn Fields(rows: Vec<Row>, bits: Vec<&'static Spec>) -> impl IntoView {
     let row = |row: Row| {
         let spec = row.spec;
         let (length, each) = match row.size {
@@ -191,7 +217,7 @@ fn Fields(rows: Vec<Row>) -> impl IntoView {
         };
         let place = match row.offset {
             _ if row.size.is_around() => String::new(),
-            None => "behind that".to_owned(),
+            None => "then".to_owned(),
             Some(offset) if each > 1 => format!("{offset} to {}", offset + each - 1),
             Some(offset) => offset.to_string(),
         };
@@ -229,11 +255,7 @@ fn Fields(rows: Vec<Row>) -> impl IntoView {
             </tr>
         }
     };
-    let bits: Vec<_> = rows
-        .iter()
-        .filter(|row| !row.spec.bits.is_empty())
-        .map(|row| view! { <BitDiagram spec=row.spec /> })
-        .collect();
+    let bits = bits.into_iter().map(|spec| view! { <BitDiagram spec /> }).collect_view();
     view! {
         <table class="table layout">
             <thead>
