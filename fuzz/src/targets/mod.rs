@@ -6,6 +6,7 @@ mod cause;
 mod form;
 mod frame;
 mod law;
+mod lesson;
 mod link;
 mod log;
 mod long;
@@ -61,4 +62,5 @@ pub static TARGETS: &[&Target] = &[
     &out::TARGET,
     &setup::TARGET,
     &practice::TARGET,
+    &lesson::TARGET,
 ];

@@ -17,8 +17,7 @@ pub static TARGET: Target = Target {
             1 => hex(&make::telegram(random, seeds)).into_bytes(),
             _ => random.below(70_000).to_string().into_bytes(),
         };
-        let choices: Vec<u8> = (0..CHOICES).map(|_| random.below(256) as u8).collect();
-        [choices, answer].concat()
+        [make::choices(random, CHOICES), answer].concat()
     },
     run,
 };

@@ -68,7 +68,11 @@ pub fn remarks(text: &str, from: usize, places: &[Span]) -> Vec<Remark> {
             word.push(c);
         }
         let before = if end == at { digits } else { 0 };
-        remarks.push(remark(&word, before, Span::new(at, to)));
+        // What is whole bytes by itself is right, whatever is beside it.
+        let whole = word.chars().all(|c| c.is_ascii_hexdigit()) && (before + word.len()).is_multiple_of(2);
+        if !whole {
+            remarks.push(remark(&word, before, Span::new(at, to)));
+        }
     }
     remarks
 }

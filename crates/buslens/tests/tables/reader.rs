@@ -64,6 +64,10 @@ const SPELLINGS: &[&str] = &[
     r#"'\x01\x03' and "\x00\xC8\x00\x03\x84\x35""#,
     r#""\x01\x03\n\r\t\a\b\v\f\\\"""#,
     r"'\x01\x03\q\x00'",
+    r"'\x0g\x01\x03'",
+    r"'\x01\x3'",
+    r"'\08\19'",
+    r"'\x01\xg3'",
     r"C:\x01\x03.txt",
     "\"\\x01\\xc3\\xa9\u{e9}\"",
     "\"\\x01\u{100}\"",
@@ -156,6 +160,9 @@ const SURROUNDINGS: &[&str] = &[
     "S: 41 00 23 00",
     "x E1: 41 00 23 00",
     "COM3 01 03 00 C8 00 03",
+    "COM 01 03 00 C8 00 03",
+    "COM3x 01 03 00 C8 00 03",
+    "ttyACM1 ttyAMA0 01 03 00 C8",
     "ttyUSB0: 01 03 00 C8 00 03",
     "ttyS x COM12 01 03 00 C8 00 03",
     "10.0.0.7:49152 -> 192.168.0.10:502 01 06 00 C8 00 03",
@@ -764,6 +771,21 @@ fn beginnings() {
     texts.push(format!("time_us\n{}\n01 03 00 C8", lines(&|n| format!("{n}.5,0x{n:02X}"), 20)));
     texts.push(format!("t (us)\n01 03\n01 03\n{}", lines(&|n| format!("{n}.5,0x{n:02X}"), 20)));
     texts.push(format!("t\n01 03\n01 03\n01 03\n{}", lines(&|n| format!("{n}.5,0x{n:02X}"), 20)));
+    texts.push(format!(
+        "t\n{}{}",
+        lines(&|_| "01 03 00 C8 x 0x05".to_owned(), 3),
+        lines(&|n| format!("{n}.5,0x{n:02X}"), 20)
+    ));
+    texts.push(format!(
+        "t\n{}{}",
+        lines(&|_| "01 03 00 C8 x 0x05".to_owned(), 2),
+        lines(&|n| format!("{n}.5,0x{n:02X}"), 20)
+    ));
+    texts.push(format!(
+        "t\n{}{}",
+        lines(&|_| "x 1".to_owned(), 3),
+        lines(&|n| format!("{n}.5,0x{n:02X}"), 20)
+    ));
     for text in &texts {
         let known = text::recognise(text.as_bytes());
         let shown: String = text.escape_debug().to_string().chars().take(60).collect();
@@ -919,6 +941,8 @@ fn what_bytes_could_be() {
         "01 65 20 00 00 01 04 00 00 00 01",
         "01 65 20 00 00 01 04 00 00 00",
         "01 65 20 00 00 01 05 00 00 00 01",
+        "01 65 20 00 00 01 08 00 00 00 01 00 00 00 02",
+        "01 65 20 00 00 02 08 00 00 00 01 00 00 00 02",
         "01 65 20 00 00 3E",
         "01 65 20 00 00 3F",
         "01 64 20 00 00 3E",
@@ -980,6 +1004,10 @@ fn what_bytes_could_be() {
         "68 05 06 68 81 82 5D 3B 3E D9 16",
         "68 05 05 68 81 82 5D 3B 3E",
         "68 05 05 68 81 82 5D 3B 3E D9",
+        "68 05 05 68 81 82 5D 3B 16",
+        "68 05 06 68 81 82 5D 3B 16",
+        "68 05 05 69 81 82 5D 3B 3E",
+        "68 05 05 68 81 82 5D 3B 3E D9 16 00",
         "68 05 05 68 81 82 9D 3B 3E",
         "68 05 06 68 81 82 5D 3B 3E",
         "10 01 02 49 4C 16",
@@ -1434,6 +1462,12 @@ fn causes_of_damage() {
         ("modbus-rtu", "01 03 06 80 00 A4 42 DE F1 B0 F8"),
         ("modbus-rtu", "01 03 06 00 80 42 A4"),
         ("modbus-rtu", "01 83 02 F1 C0"),
+        ("modbus-rtu", "01 03 00 C8 00 03 2E 84"),
+        ("modbus-rtu", "01 03 00 C8 00 03 84 2E"),
+        ("modbus-rtu", "01 03 00 C8 00 03 14 47"),
+        ("modbus-rtu", "01 03 00 C8 00 03 47 14"),
+        ("modbus-rtu", "01 03 00 C8 00 03 FF A1"),
+        ("modbus-rtu", "01 03 00 C8 00 03 A1 FF"),
         ("modbus-rtu", "01 03 0C 08 00 03 84 35"),
         ("modbus-rtu", "00 13 00 C8 00 03 84 35"),
         ("modbus-rtu", "10 03 00 C8 00 03 84 35"),
@@ -1617,6 +1651,9 @@ fn encodings_and_others() {
         b"a\x00\t\x00\r\x00\n\x00~\x00",
         b"\xFF\xFE\x3D\xD8\x00\xDE",
         b"\xFF\xFE\x3D\xD8A\x00",
+        b"\xFF\xFEA\x00\x3D\xD8\x00\xDE",
+        b"\xFE\xFF\x00A\xD8\x3D\xDE\x00",
+        b"\xFF\xFEA\x00\x3D\xDC\x00\xDE",
         b"\xFE\xFF\xD8\x3D\xDE\x00\x00A\x00",
         b"\x01\x03\x00\xC8",
         b"text with \x1B[0m colours \x07 and \x0C",

@@ -39,7 +39,17 @@ pub enum Ask {
     /// A damaged telegram that is to be made right.
     Repair { damaged: String, telegram: String },
     /// Bits that are to be set.
-    Bits { from: Vec<u8>, to: Vec<u8>, float: bool },
+    Bits { from: Vec<u8>, to: Vec<u8>, reading: Reading },
+}
+
+/// What bits are read as while they are set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reading {
+    /// A sum of what each is worth.
+    Sum,
+    /// Hex digits.
+    Hex,
+    Float,
 }
 
 /// What separates a telegram from the request that it answers.
@@ -52,8 +62,11 @@ impl Exercise {
     /// Whether `answer` is right; otherwise what is off. The bytes that somebody set are given as text.
     pub fn grade(&self, step: &Step, answer: &Answer) -> Verdict {
         match (&self.ask, answer) {
+            (Ask::Choose { .. } | Ask::Point { .. }, Answer::Text(_)) => {
+                Verdict::Unread(message!("nothing is chosen yet"))
+            }
             (Ask::Point { field, wrong }, Answer::Byte(at)) => point(step, field, wrong, *at),
-            (Ask::Bits { to, float, .. }, Answer::Text(text)) => set(to, *float, &steps::bytes(text)),
+            (Ask::Bits { to, reading, .. }, Answer::Text(text)) => set(to, *reading, &steps::bytes(text)),
             (Ask::Number { wrong, .. }, Answer::Text(text))
                 if let Ok(written) = notation::read(text, 8, Format::Decimal, Notation::Any)
                     && let Some((_, said)) = wrong.iter().find(|(value, _)| *value == written.raw) =>
@@ -64,6 +77,15 @@ impl Exercise {
                 Some(task) => grade(&task, answer),
                 None => Verdict::Unread(message!("there is no answer to this")),
             },
+        }
+    }
+
+    /// What stands in the place for the answer at first.
+    pub fn start(&self) -> String {
+        match &self.ask {
+            Ask::Repair { damaged, .. } => damaged.clone(),
+            Ask::Bits { from, .. } => hex(from),
+            _ => String::new(),
         }
     }
 
@@ -138,7 +160,9 @@ impl Exercise {
         let mut say = |said: String| found.push(Mistake { line: self.line, said });
         for text in [&self.question, &self.then].into_iter().chain(&self.hints) {
             if let Err(name) = step.filled(text, report) {
-                say(format!("In the words of this task, {{{name}}} is nothing that the telegrams of its step say."));
+                say(format!(
+                    "In the words of this task, {{{name}}} is nothing that the telegrams of its step say."
+                ));
             }
         }
         let last = report.telegrams.len().checked_sub(1).and_then(|last| report.detail(last));
@@ -155,13 +179,17 @@ impl Exercise {
                     all.filter(|name| field(&detail, name).is_none())
                         .for_each(|name| say(unknown(name, &names(&detail))));
                 }
-                None => say("What is to be found stands in a telegram of the step, and there is none.".to_owned()),
+                None => {
+                    say("What is to be found stands in a telegram of the step, and there is none.".to_owned())
+                }
             },
             Ask::Blank { telegram, fields } => match known(telegram, &step.options()) {
                 Some(telegram) => {
                     let detail = telegram.detail();
                     for name in fields {
-                        if let Some(detail) = &detail && field(detail, name).is_none() {
+                        if let Some(detail) = &detail
+                            && field(detail, name).is_none()
+                        {
                             say(unknown(name, &names(detail)));
                         }
                     }
@@ -250,11 +278,15 @@ fn point(step: &Step, name: &str, wrong: &[(String, String)], at: usize) -> Verd
         return Verdict::Unread(message!("there is no byte {n}", n = at));
     };
     let label = other.label().to_string();
-    wrong_with(&label, message!("byte {n} belongs to another field: {label}", n = at, label = label.clone()), Some(other.span))
+    wrong_with(
+        &label,
+        message!("byte {n} belongs to another field: {label}", n = at, label = label.clone()),
+        Some(other.span),
+    )
 }
 
 /// Whether bits are set as they should be.
-fn set(to: &[u8], float: bool, given: &[u8]) -> Verdict {
+fn set(to: &[u8], reading: Reading, given: &[u8]) -> Verdict {
     if given == to {
         return Verdict::Right(None);
     }
@@ -263,7 +295,7 @@ fn set(to: &[u8], float: bool, given: &[u8]) -> Verdict {
     }
     let number = |bytes: &[u8]| bytes.iter().fold(0_u64, |number, byte| number << 8 | u64::from(*byte));
     let off = number(given) ^ number(to);
-    if float {
+    if reading == Reading::Float {
         // Sign, exponent, fraction: the first that is off.
         let (part, span) = match off.leading_zeros() - 32 {
             0 => ("sign", Span::new(0, 1)),
@@ -286,7 +318,11 @@ fn set(to: &[u8], float: bool, given: &[u8]) -> Verdict {
     }
     let highest = 63 - off.leading_zeros();
     let text = match number(given) >> highest & 1 {
-        1 => message!("bit {n} is worth {weight}: that is too much here", n = highest, weight = 1_u64 << highest),
+        1 => message!(
+            "bit {n} is worth {weight}: that is too much here",
+            n = highest,
+            weight = 1_u64 << highest
+        ),
         _ => message!("bit {n}, worth {weight}, is missing", n = highest, weight = 1_u64 << highest),
     };
     wrong_with(&format!("bit {highest}"), text, None)
