@@ -33,12 +33,14 @@ pub enum View {
     Build,
     Check,
     Devices,
+    Learn,
     /// What is read, made for paper.
     Sheet,
 }
 
 impl View {
-    pub const ALL: [Self; 5] = [Self::Read, Self::Build, Self::Check, Self::Devices, Self::Sheet];
+    pub const ALL: [Self; 6] =
+        [Self::Read, Self::Build, Self::Check, Self::Devices, Self::Learn, Self::Sheet];
 
     /// What it is called in addresses, and in the browser's store.
     pub fn key(self) -> &'static str {
@@ -47,6 +49,7 @@ impl View {
             Self::Build => "build",
             Self::Check => "check",
             Self::Devices => "devices",
+            Self::Learn => "learn",
             Self::Sheet => "sheet",
         }
     }
@@ -57,6 +60,7 @@ impl View {
             Self::Build => "Build",
             Self::Check => "Check",
             Self::Devices => "Devices",
+            Self::Learn => "Learn",
             Self::Sheet => "Sheet",
         }
     }

@@ -43,7 +43,7 @@ pub fn App() -> impl IntoView {
         let view = address.view();
         let about = match view {
             View::Read | View::Sheet => read.title(),
-            View::Build | View::Check | View::Devices => None,
+            View::Build | View::Check | View::Devices | View::Learn => None,
         };
         let about = about.map_or(String::new(), |about| format!(": {about}"));
         document().set_title(&format!("{}{about} - Buslens", view.label()));
@@ -95,6 +95,7 @@ pub fn App() -> impl IntoView {
         View::Build => view! { <LaterPiece piece=Piece::Build /> }.into_any(),
         View::Check => view! { <LaterPiece piece=Piece::Check /> }.into_any(),
         View::Devices => view! { <LaterPiece piece=Piece::Devices /> }.into_any(),
+        View::Learn => view! { <LaterPiece piece=Piece::Learn /> }.into_any(),
         View::Sheet => view! { <LaterPiece piece=Piece::Sheet /> }.into_any(),
     };
     view! {
@@ -126,7 +127,7 @@ impl Shows for States {
         match view {
             View::Read | View::Sheet => self.read.link(),
             View::Devices => self.devices.link(),
-            View::Build | View::Check => self.later.link(view),
+            View::Build | View::Check | View::Learn => self.later.link(view),
         }
     }
 
@@ -134,7 +135,7 @@ impl Shows for States {
         match view {
             View::Read | View::Sheet => self.read.follow(link),
             View::Devices => self.devices.follow(link),
-            View::Build | View::Check => self.later.follow(view, link),
+            View::Build | View::Check | View::Learn => self.later.follow(view, link),
         }
     }
 

@@ -19,6 +19,7 @@ use crate::components::telegram::Shown;
 use crate::views::build::{Build, BuildState};
 use crate::views::check::{Check, CheckState};
 use crate::views::devices::Devices;
+use crate::views::learn::{Learn, LearnState};
 use crate::views::read::{Beside, LogView, More, Pictures, ProposedDevice, ReadState};
 use crate::views::sheet::Sheet;
 use buslens::tool::json;
@@ -31,6 +32,8 @@ pub enum Part {
     Views,
     /// What reads logs and shows them, and what there is to say beside a telegram and its fields.
     Log,
+    /// Lessons, tasks, and everything to look up.
+    Learn,
 }
 
 /// What the later parts draw.
@@ -40,6 +43,7 @@ pub enum Piece {
     Check,
     Devices,
     Sheet,
+    Learn,
     Log,
     /// What comes of telegrams and logs, beside the input that is empty.
     Pictures,
@@ -56,13 +60,14 @@ impl Piece {
     const fn part(&self) -> Part {
         match self {
             Self::Build | Self::Check | Self::Devices | Self::Sheet => Part::Views,
+            Self::Learn => Part::Learn,
             _ => Part::Log,
         }
     }
 
     /// Whether it is all that is asked for, and not something beside that.
     const fn is_view(&self) -> bool {
-        matches!(self, Self::Build | Self::Check | Self::Devices | Self::Sheet | Self::Log)
+        matches!(self, Self::Build | Self::Check | Self::Devices | Self::Sheet | Self::Learn | Self::Log)
     }
 }
 
@@ -116,6 +121,16 @@ fn log() -> Result<Content, NotLoaded> {
     Ok(Content { start: || expect_context::<ReadState>().read_logs(), draw })
 }
 
+#[wasm_split(learn, wasm_split_path = leptos::wasm_split, fallible)]
+fn learn() -> Result<Content, NotLoaded> {
+    fn start() {
+        let state = LearnState::new();
+        provide_context(state);
+        expect_context::<Later>().give(View::Learn, Box::new(state));
+    }
+    Ok(Content { start, draw: |_| view! { <Learn /> }.into_any() })
+}
+
 /// The telegram as JSON with its fields.
 #[wasm_split(views, wasm_split_path = leptos::wasm_split, fallible)]
 pub fn json(shown: Shown) -> Result<String, NotLoaded> {
@@ -164,6 +179,16 @@ impl Linked for BuildState {
     }
 }
 
+impl Linked for LearnState {
+    fn link(&self) -> Link {
+        self.link()
+    }
+
+    fn follow(&self, link: Link) {
+        self.follow(link);
+    }
+}
+
 impl Linked for CheckState {
     fn link(&self) -> Link {
         self.link()
@@ -182,6 +207,7 @@ type States = Vec<(View, Box<dyn Linked>)>;
 pub struct Later {
     views: RwSignal<Stage, LocalStorage>,
     log: RwSignal<Stage, LocalStorage>,
+    learn: RwSignal<Stage, LocalStorage>,
     /// Owns what the parts make.
     app: StoredValue<Owner>,
     states: StoredValue<States, LocalStorage>,
@@ -195,6 +221,7 @@ impl Later {
         Self {
             views: RwSignal::new_local(Stage::Not),
             log: RwSignal::new_local(Stage::Not),
+            learn: RwSignal::new_local(Stage::Not),
             app: StoredValue::new(Owner::current().unwrap_or_default()),
             states: StoredValue::new_local(Vec::new()),
             waiting: StoredValue::new_local(Vec::new()),
@@ -205,6 +232,7 @@ impl Later {
         match part {
             Part::Views => self.views,
             Part::Log => self.log,
+            Part::Learn => self.learn,
         }
     }
 
@@ -219,6 +247,7 @@ impl Later {
             let loaded = match part {
                 Part::Views => views().await,
                 Part::Log => log().await,
+                Part::Learn => learn().await,
             };
             stage.set(match loaded {
                 Ok(content) => {

@@ -9,8 +9,10 @@
 mod names;
 mod offline;
 mod one_file;
+mod order;
 mod page;
 mod split;
+mod unused;
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -111,7 +113,7 @@ impl Compiled {
     fn read(name: &str, path: &Path) -> Result<Compiled, String> {
         let says = |error| format!("wasm-bindgen could not read {}: {error:#}", path.display());
         let parts = path.with_extension("parts");
-        let Split { main, later, link } = split::split(&read(path)?, &parts)?;
+        let Split { main, later, link } = split::split(&unused::without(&read(path)?)?, &parts)?;
         let mut output = Bindgen::new()
             .input_bytes(name, main)
             .out_name(name)
@@ -150,7 +152,7 @@ impl Compiled {
             .map_err(|error| format!("The glue of {name} cannot be made smaller: {error}."))?;
         Ok(Compiled {
             glue: hashed(name, "js", glue.to_string().into_bytes()),
-            wasm: hashed(name, "wasm", output.wasm_mut().emit_wasm()),
+            wasm: hashed(name, "wasm", order::ordered(&output.wasm_mut().emit_wasm())?),
             later,
         })
     }

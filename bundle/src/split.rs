@@ -8,6 +8,7 @@ use std::path::Path;
 use wasm_split_cli_support::{Options, transform};
 
 use crate::names;
+use crate::order::ordered;
 use crate::page::File;
 
 /// A module in parts.
@@ -42,7 +43,7 @@ pub fn split(wasm: &[u8], folder: &Path) -> Result<Split, String> {
     let mut renamed = BTreeMap::new();
     for path in parts.split_modules {
         let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let content = without_custom_sections(&read(&path)?)?;
+        let content = ordered(&read(&path)?)?;
         let name = names::hashed("later", "wasm", &content);
         renamed.insert(format!("\"./{stem}.wasm\""), format!("\"./{name}\""));
         later.push(File { name, content });
@@ -92,27 +93,38 @@ pub fn join(glue: &str, link: &str) -> Result<String, String> {
     Ok(joined)
 }
 
-/// A module without names of functions and the like, which nobody reads in a browser.
-fn without_custom_sections(wasm: &[u8]) -> Result<Vec<u8>, String> {
-    const HEADER: usize = 8;
-    const CUSTOM: u8 = 0;
-    let broken = || "A part of the module is no wasm.".to_owned();
-    let mut kept = wasm.get(..HEADER).ok_or_else(broken)?.to_vec();
-    let mut rest = &wasm[HEADER..];
+/// How long the beginning of a module is, before its sections.
+pub const HEADER: usize = 8;
+
+/// A section of a module.
+pub struct Section<'a> {
+    pub kind: u8,
+    pub content: &'a [u8],
+    /// Kind and length included.
+    pub whole: &'a [u8],
+}
+
+/// What a module is made of, behind its header.
+pub fn sections(wasm: &[u8]) -> Result<Vec<Section<'_>>, String> {
+    let mut sections = Vec::new();
+    let mut rest = wasm.get(HEADER..).ok_or_else(broken)?;
     while let [kind, after @ ..] = rest {
         let (length, digits) = number(after).ok_or_else(broken)?;
-        let end = 1 + digits + length;
-        let section = rest.get(..end).ok_or_else(broken)?;
-        if *kind != CUSTOM {
-            kept.extend_from_slice(section);
-        }
+        let (start, end) = (1 + digits, 1 + digits + length);
+        let whole = rest.get(..end).ok_or_else(broken)?;
+        sections.push(Section { kind: *kind, content: &whole[start..], whole });
         rest = &rest[end..];
     }
-    Ok(kept)
+    Ok(sections)
+}
+
+/// What is said of a module that is none.
+pub fn broken() -> String {
+    "A part of the module is no wasm.".to_owned()
 }
 
 /// A number in LEB128, and how many bytes it takes.
-fn number(bytes: &[u8]) -> Option<(usize, usize)> {
+pub fn number(bytes: &[u8]) -> Option<(usize, usize)> {
     let mut value = 0_usize;
     for (at, byte) in bytes.iter().take(5).enumerate() {
         value |= usize::from(byte & 0x7F) << (7 * at);
@@ -146,16 +158,5 @@ mod tests {
             "function f() {\nreturn {\n\"./page_bg.js\": import0,\n\"./__wasm_split.js\": import1,\n};\n}\n\
              const a = 1;\nconst load = a;\nconst import1 = { load };\n"
         );
-    }
-
-    #[test]
-    fn only_custom_sections_are_left_out() {
-        let header = b"\0asm\x01\0\0\0".to_vec();
-        let wasm = [&header[..], &[1, 2, 7, 7], &[0, 3, 1, 97, 9], &[3, 1, 0]].concat();
-        assert_eq!(
-            without_custom_sections(&wasm).unwrap(),
-            [&header[..], &[1, 2, 7, 7], &[3, 1, 0]].concat()
-        );
-        assert!(without_custom_sections(&wasm[..wasm.len() - 1]).is_err());
     }
 }

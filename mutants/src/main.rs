@@ -1,4 +1,4 @@
-//! How many changes of the library its tests notice: `mutants CARGO_MUTANTS [--of PART] [--sample N] [--seed S]`.
+//! How many changes of the library its tests notice: `mutants CARGO_MUTANTS [--of PART] [--sample N] [--seed S] [--tests NAME]`.
 //!
 //! cargo-mutants says what could be changed where. To build the tests for each change takes a minute, so all
 //! changes are built in at once, each behind a switch ([`switch`]); the tests are run with one of them on, and
@@ -32,7 +32,7 @@ fn main() -> ExitCode {
 
 fn run(words: &[&str]) -> Result {
     let [program, options @ ..] = words else { return Err("Which cargo-mutants?".to_owned()) };
-    let (mut part, mut sample, mut seed) = (&PARTS[0], usize::MAX, 1);
+    let (mut part, mut sample, mut seed, mut tests) = (&PARTS[0], usize::MAX, 1, "");
     for pair in options.chunks(2) {
         let number = |text: &str| text.parse().map_err(|_| format!("`{text}` is not a number."));
         match *pair {
@@ -44,9 +44,11 @@ fn run(words: &[&str]) -> Result {
             }
             ["--sample", text] => sample = number(text)?,
             ["--seed", text] => seed = number(text)? as u64,
+            // What some of the tests notice by themselves, while they are written.
+            ["--tests", name] => tests = name,
             _ => {
                 return Err(format!(
-                    "`{}` is not understood: [--of PART] [--sample N] [--seed S].",
+                    "`{}` is not understood: [--of PART] [--sample N] [--seed S] [--tests NAME].",
                     pair.join(" ")
                 ));
             }
@@ -55,7 +57,7 @@ fn run(words: &[&str]) -> Result {
     let mutants = list::list(Path::new(program), part)?;
     let folder = copy(part.key)?;
     println!("{} changes of {}.", mutants.len(), part.key);
-    let suite = Suite::build(&folder, &mutants)?;
+    let suite = Suite::build(&folder, &mutants, tests)?;
     let mut order: Vec<usize> = (0..mutants.len()).collect();
     shuffle(&mut order, seed);
     order.truncate(sample);

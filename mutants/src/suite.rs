@@ -84,8 +84,9 @@ pub enum Outcome {
 }
 
 impl Suite {
-    /// Puts all `mutants` into the copy of the project in `folder`, and builds its tests.
-    pub fn build(folder: &Path, mutants: &[Mutant]) -> Result<Self> {
+    /// Puts all `mutants` into the copy of the project in `folder`, and builds its tests; those whose names hold
+    /// `tests` are run.
+    pub fn build(folder: &Path, mutants: &[Mutant], tests: &str) -> Result<Self> {
         let mut files: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
         for (number, mutant) in mutants.iter().enumerate() {
             files.entry(&mutant.file).or_default().push(number);
@@ -112,7 +113,7 @@ impl Suite {
             let errors = compile(folder, &["check", "--lib"])?.1;
             if errors.is_empty() {
                 let switched = written.into_values().flat_map(|file| file.switched).collect();
-                return Self::with(folder, switched);
+                return Self::with(folder, switched, tests);
             }
             let before = left_out.len();
             for error in &errors {
@@ -137,7 +138,7 @@ impl Suite {
         }
     }
 
-    fn with(folder: &Path, switched: HashSet<usize>) -> Result<Self> {
+    fn with(folder: &Path, switched: HashSet<usize>, tests: &str) -> Result<Self> {
         println!("Building the tests with {} changes asleep.", switched.len());
         let (binaries, errors) = compile(folder, &["test", "--no-run", "--lib", "--test", "all"])?;
         if let Some(error) = errors.first() {
@@ -145,18 +146,19 @@ impl Suite {
         }
         let mut suite =
             Self { folder: folder.to_owned(), binaries, tests: Vec::new(), met: HashMap::new(), switched };
-        suite.survey()?;
+        suite.survey(tests)?;
         Ok(suite)
     }
 
     /// Runs each test by itself with all mutants asleep, to see which of them it meets.
-    fn survey(&mut self) -> Result {
+    fn survey(&mut self, tests: &str) -> Result {
         let list = self.folder.join("met.txt");
         for binary in 0..self.binaries.len() {
             let output = self.command(binary).args(["--list", "--format", "terse"]).output();
             let output = output.map_err(|error| format!("The tests do not start: {error}."))?;
             let names = String::from_utf8_lossy(&output.stdout).into_owned();
-            for name in names.lines().filter_map(|line| line.strip_suffix(": test")) {
+            let names = names.lines().filter_map(|line| line.strip_suffix(": test"));
+            for name in names.filter(|name| name.contains(tests)) {
                 let _ = fs::remove_file(&list);
                 let start = Instant::now();
                 let test = Test { binary, name: name.to_owned(), time: Duration::ZERO };

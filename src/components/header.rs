@@ -21,11 +21,12 @@ use crate::browser::typing::is_typed_into;
 const THEME: &str = "theme";
 
 /// The views that the line leads to.
-const VIEWS: [(View, Glyph); 4] = [
+const VIEWS: [(View, Glyph); 5] = [
     (View::Read, Glyph::Read),
     (View::Build, Glyph::Build),
     (View::Check, Glyph::Check),
     (View::Devices, Glyph::Devices),
+    (View::Learn, Glyph::Learn),
 ];
 
 #[component]

@@ -3,6 +3,7 @@
 pub mod build;
 pub mod check;
 pub mod devices;
+pub mod learn;
 pub mod outgoing;
 pub mod read;
 pub mod sheet;

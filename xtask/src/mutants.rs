@@ -4,7 +4,7 @@
 use crate::steps::{self, Result};
 use crate::tools;
 
-/// Takes what the program takes: `[--of PART] [--sample N] [--seed S]`.
+/// Takes what the program takes: `[--of PART] [--sample N] [--seed S] [--tests NAME]`.
 pub fn run(arguments: &[&str]) -> Result {
     let lister = tools::installed("cargo-mutants", "27.1.0")?;
     let program = ["run", "--quiet", "--package", "mutants", "--"];

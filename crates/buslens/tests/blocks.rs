@@ -80,7 +80,7 @@ fn blocks_of_an_f5_on_modbus() {
     let found = blocks(&bytes("00 03 FA 24"), Profile::of("keb-f5-modbus"), &settings);
     assert_eq!(found[0].said.to_string(), "Status word (Sy.51) = 0003h; Actual speed (Sy.53) = \u{2212}1500");
     let (kind, said) = best("keb-f5-modbus", "00 33 01 01 00 35 01 01");
-    assert_eq!(kind, "Read mapping entry, 2 blocks");
+    assert_eq!(kind, "Read-mapping entry, 2 blocks");
     assert!(said.starts_with("16 bit, set 0, parameter 0033h"), "{said}");
     assert_eq!(best("keb-f5-modbus", "00 03 05 DC").0, "registers of the mapping list");
 }

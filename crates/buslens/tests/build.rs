@@ -111,7 +111,7 @@ fn an_odd_text_is_padded() {
 #[test]
 fn keb_by_register_and_by_index() {
     let entries = [("number", "0"), ("read_mapping_entry", "0x00330101")];
-    let mut entry = draft("keb-f5-modbus", "Write Read mapping entry", &entries);
+    let mut entry = draft("keb-f5-modbus", "Write Read-mapping entry", &entries);
     assert_eq!(bytes(&mut entry, 1, "modbus-tcp"), "00 01 00 00 00 0B 01 65 5F 32 00 01 04 00 33 01 01");
     // S1 of section 7.5.1, but with the parameter's own length.
     let entries = [("subindex", "0"), ("reference_source", "11")];

@@ -117,7 +117,7 @@ fn values_are_explained() {
 
 #[test]
 fn mapping_entries_are_explained() {
-    for (register, label) in [(0x5F33, "Read mapping entry 1"), (0x5F96, "Write mapping entry 0")] {
+    for (register, label) in [(0x5F33, "Read-mapping entry 1"), (0x5F96, "Write-mapping entry 0")] {
         let area = area(MODBUS, register);
         let mut entry = field(&area.spec, 0x0033_0101, 4);
         let number = area.first.unwrap() + u64::from(register - area.from);

@@ -154,7 +154,7 @@ fn Others() -> impl IntoView {
     others.collect_view()
 }
 
-/// What is not as delivered, and the settings as a file.
+/// What is no factory setting, and the settings as a file.
 #[component]
 fn Changes() -> impl IntoView {
     let state = expect_context::<DeviceSettings>();

@@ -95,7 +95,7 @@ impl DeviceSettings {
         self.set_up.with(|set_up| list.rows(&set_up.settings))
     }
 
-    /// What is not as delivered.
+    /// What is no factory setting.
     pub fn differences(&self) -> Vec<setup::Difference> {
         self.set_up.with(|set_up| setup::differences(&set_up.settings))
     }

@@ -29,8 +29,16 @@ impl Profile {
         let mut tasks = Vec::new();
         // Where everything has a name of its own, the rest is nothing to ask for.
         let nameless = |target: &Target| matches!(target, Target::Area(area) if area.listed);
+        // What can have one value only is nothing to write.
+        let fixed = |target: &Target| match target {
+            Target::Parameter(parameter) => parameter.spec.limits.is_some_and(|(least, most)| least == most),
+            Target::Area(_) => false,
+        };
         for (target, allowed) in areas.chain(parameters).filter(|(target, _)| !nameless(target)) {
             for access in [Access::Read, Access::Write] {
+                if access == Access::Write && fixed(&target) {
+                    continue;
+                }
                 if allowed == access || allowed == Access::ReadWrite {
                     tasks.push(Task { profile: self, target, access });
                 }
@@ -70,7 +78,7 @@ impl Task {
         }
     }
 
-    /// A draft of it as a form begins: with what the manual has as delivered, or the least that is right.
+    /// A draft of it as a form begins: with the factory setting that the manual has, or the least that is right.
     pub fn draft(self) -> Draft {
         let number = match self.target {
             Target::Area(area) => area.first.unwrap_or_default(),

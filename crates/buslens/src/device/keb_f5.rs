@@ -19,10 +19,10 @@ pub struct ProcessWord {
     pub sets: u8,
 }
 
-/// What the process output data carry as delivered: control word, set speed.
+/// What the process output data carry by the factory setting: control word, set speed.
 pub static STANDARD_OUTPUT: &[ProcessWord] = &[word(0x2032), word(0x2034)];
 
-/// What the process input data carry as delivered: status word, actual speed.
+/// What the process input data carry by the factory setting: status word, actual speed.
 pub static STANDARD_INPUT: &[ProcessWord] = &[word(0x2033), word(0x2035)];
 
 const fn word(index: u16) -> ProcessWord {

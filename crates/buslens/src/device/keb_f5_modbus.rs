@@ -72,13 +72,13 @@ const READ_LIST: u16 = 0x5F32;
 const WRITE_LIST: u16 = 0x5F96;
 const ENTRIES: u16 = 100;
 
-const READ_ENTRY: Spec = mapping_entry("read_mapping_entry", "Read mapping entry").note(
+const READ_ENTRY: Spec = mapping_entry("read_mapping_entry", "Read-mapping entry").note(
     "Entry N says which parameter is behind register start + N of what is read, in which sets, and how long \
      it is. 32 bits in one address: only functions 100 and 101 reach it. COMBIVIS chooses N by \
      MDB_Read_MapIndex (0289h, fb.09) and has the entry in MDB_Read_Mapping (028Ah, fb.10).",
 );
 
-const WRITE_ENTRY: Spec = mapping_entry("write_mapping_entry", "Write mapping entry").initial(0x0032_0101).note(
+const WRITE_ENTRY: Spec = mapping_entry("write_mapping_entry", "Write-mapping entry").initial(0x0032_0101).note(
     "Entry N says which parameter is behind register start + N of what is written, in which sets, and how \
      long it is. 32 bits in one address: only functions 100 and 101 reach it. COMBIVIS chooses N by \
      MDB_Write_MapIndex (028Bh, fb.11) and has the entry in MDB_Write_Mapping (028Ch, fb.12).",

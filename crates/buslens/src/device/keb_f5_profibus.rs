@@ -40,7 +40,7 @@ static LESSONS: &[Lesson] = &[
         read: false,
         learn: |taught, settings| {
             if taught.value == RESET {
-                as_delivered(settings);
+                load_factory_settings(settings);
             }
         },
     },
@@ -50,7 +50,7 @@ static LESSONS: &[Lesson] = &[
         read: true,
         learn: |taught, settings| {
             if taught.value != STORED {
-                as_delivered(settings);
+                load_factory_settings(settings);
             }
         },
     },
@@ -72,7 +72,7 @@ static LESSONS: &[Lesson] = &[
 const RESET: u32 = 1;
 const STORED: u32 = 0xFF;
 
-fn as_delivered(settings: &mut Settings) {
+fn load_factory_settings(settings: &mut Settings) {
     settings.process_output = keb_f5::STANDARD_OUTPUT.to_vec();
     settings.process_input = keb_f5::STANDARD_INPUT.to_vec();
 }
@@ -150,7 +150,7 @@ macro_rules! words {
             $($(
                 description($index, 4 * $x - 2, $index_id, Spec {
                     key: concat!($way, "_word_", $x, "_index"),
-                    ..WORD_INDEX.label(concat!($name, $x, "_Index"))
+                    ..WORD_INDEX.label(concat!($name, $x, "_Index")).initial(standard_index($index, $x))
                 }).length(2).since($since),
                 description($index, 4 * $x - 1, $set_id, Spec {
                     key: concat!($way, "_word_", $x, "_set"),
@@ -643,6 +643,12 @@ const fn description(index: u16, subindex: u8, id: &'static str, spec: Spec) -> 
     Parameter::new(index, id, spec.source(DESCRIPTIONS)).subindex(subindex)
 }
 
+/// Which parameter a word carries by the factory setting; 0 where it carries none.
+const fn standard_index(description: u16, word: usize) -> u64 {
+    let words = if description == 0x6000 { keb_f5::STANDARD_INPUT } else { keb_f5::STANDARD_OUTPUT };
+    if word <= words.len() { words[word - 1].index as u64 } else { 0 }
+}
+
 /// The addresses of COMBIVIS (section 12.1): new, and before software 1.5.
 static ALIASES: &[Alias] = &[
     combivis(0x2180, 0, Some(0x0180), None),
@@ -790,7 +796,6 @@ const WORD_INDEX: Spec = Spec::new("word_index", "Index")
         _ => None,
     })
     .refers(|index| u16::try_from(index).ok().filter(|index| *index > 0))
-    .initial(0x2033)
     .names(&[Name {
         value: 0,
         label: "goes on with the word before",

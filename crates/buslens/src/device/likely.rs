@@ -21,8 +21,10 @@ pub struct Likely {
     pub said: Message,
     /// They tile the bytes.
     pub fields: Vec<Field>,
-    /// What of the device has such values; what it is of them, the bytes do not tell.
-    pub of: Vec<&'static str>,
+    /// What speaks for it, or against it.
+    pub reason: Message,
+    /// What the bytes do not tell.
+    pub unknown: Message,
     /// Blocks one behind the other.
     pub blocks: usize,
     /// How much speaks for it, in bits of chance; below 0 it speaks against it.
@@ -59,7 +61,9 @@ impl Profile {
 
     /// The registers of a mapping list, from its beginning on.
     fn mapped_block(&'static self, bytes: &[u8], settings: &Settings) -> Option<Likely> {
-        let area = self.areas.iter().find(|area| matches!(area.content, Content::Mapped))?;
+        if !self.areas.iter().any(|area| matches!(area.content, Content::Mapped)) {
+            return None;
+        }
         let mapping = &settings.read_mapping;
         let count = bytes.len() / 2;
         let span = Span::new(0, bytes.len());
@@ -76,18 +80,21 @@ impl Profile {
         let known = (0..count as u16)
             .all(|at| matches!(mapping.entry(mapping.start.saturating_add(at)), Mapped::Entry(..)));
         let fields: Vec<Field> = said.blocks.iter().map(|block| block.field.clone()).collect();
+        let (bits, reason) = match known {
+            true if count == mapping.entries.len() => {
+                (9, message!("they are as many as the mapping list has entries for"))
+            }
+            true => (6, message!("the mapping list has entries for all of them")),
+            false => (1, message!("any parameter can be mapped")),
+        };
         Some(Likely {
             kind: message!("registers of the mapping list"),
             said: said.sentence()?,
             fields,
-            of: vec![area.spec.label],
+            reason,
+            unknown: message!("the bytes do not tell whether they begin where the mapping list does"),
             blocks: 1,
-            // As many as the list has, each with its parameter.
-            bits: match known {
-                true if count == mapping.entries.len() => 9,
-                true => 6,
-                false => 1,
-            },
+            bits,
         })
     }
 }
@@ -195,7 +202,19 @@ impl Shape {
         if more > 0 {
             said = message!("{said}; and {more} more", said = said, more = more);
         }
-        Some(Likely { kind: self.kind(), said, fields, of, blocks, bits })
+        let reason = match problems(&fields).len() {
+            0 if bits > 0 => message!("the values are such as these registers hold"),
+            0 => message!("the length fits, but the values are unusual for these registers"),
+            1 => message!("the length fits, but one of the values is not allowed"),
+            wrong => message!("the length fits, but {n} of the values are not allowed", n = wrong),
+        };
+        let unknown = match of.len() {
+            1 => {
+                message!("nothing but length and values tells that they are of {thing}", thing = one_of(&of))
+            }
+            _ => message!("the bytes do not tell the register: {things}", things = one_of(&of)),
+        };
+        Some(Likely { kind: self.kind(), said, fields, reason, unknown, blocks, bits })
     }
 }
 
@@ -229,15 +248,20 @@ fn number(spec: &'static Spec, raw: u64, width: usize) -> i32 {
             let value = part.of(raw);
             let flag = part.count == 1 && part.names.is_empty();
             match part.name(value) {
-                // Zeros are everywhere.
                 _ if part.reserved && value == 0 => part.count.min(RESERVED) as i32,
                 _ if part.reserved => -NAMELESS,
                 _ if flag => -(value as i32),
+                Some(_) if value == 0 => 1,
                 Some(_) => part.count as i32 - (part.names.len() as u32).next_power_of_two().ilog2() as i32,
                 None if part.names.is_empty() => 0,
                 None => -NAMELESS,
             }
         };
+        // Zeros are everywhere.
+        if raw == 0 {
+            let nameless = spec.bits.iter().any(|part| !part.names.is_empty() && part.name(0).is_none());
+            return if nameless { -NAMELESS } else { 1 };
+        }
         let named = spec.bits.iter().any(|part| part.name(part.of(raw)).is_some());
         let flags = spec.bits.iter().filter(|part| part.count == 1 && part.of(raw) == 1).count();
         // Where something has a name and no limit is violated, all is as it mostly is.
@@ -284,7 +308,7 @@ impl Block {
 }
 
 /// "Universal channel, Maths channel or Relay".
-pub fn one_of(names: &[&'static str]) -> Message {
+fn one_of(names: &[&'static str]) -> Message {
     let mut named = names.iter().map(|name| Message::term(name));
     let last = named.next_back().unwrap_or(message!("nothing"));
     let before = Message::list(named);

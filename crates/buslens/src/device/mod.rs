@@ -17,7 +17,7 @@ pub use display::Display;
 pub use draft::{Asked, Draft, Target, Task};
 pub use keb_f5::ProcessWord;
 pub use keb_f5_modbus::mapping_entry;
-pub use likely::{Likely, likelihood, one_of};
+pub use likely::{Likely, likelihood};
 pub use read::{Block, Numbers, Process, Registers, Said};
 
 use crate::field::{Spec, hex_value};

@@ -215,6 +215,10 @@ fn of_ascii(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
 fn pdu(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
     /// Two bytes are no PDU that could be told.
     const SHORTEST: usize = 5;
+    // Units 1 and 2 write a register more often than 48 switches are printed without their unit.
+    if matches!(bytes, [1 | 2, 6, ..]) && damaged(bytes, splitter).is_some() {
+        return None;
+    }
     let bits = structure(bytes, splitter).filter(|_| bytes.len() >= SHORTEST)?;
     // Whatever could be a PDU is more likely one with its unit.
     Some(whole(&modbus_pdu::PROTOCOL, Verdict::NoCheck, bits - 1))
@@ -246,6 +250,10 @@ fn cut(bytes: &[u8], splitter: &Splitter, waiting: Option<Waiting>) -> Option<Re
         let missing = request.checked_sub(bytes.len()).filter(|missing| counts && *missing > 0)?;
         let bits = unit(first) + function(code) + 8 + CUT;
         return is_cut(bytes, missing, false).then(|| without_check(0, bits, true));
+    }
+    // Nobody answers from the address of all.
+    if first == 0 {
+        return None;
     }
     let even = count % 2 == 0 || matches!(code, 1 | 2);
     let missing = response?.checked_sub(bytes.len()).filter(|missing| *missing > 0)?;

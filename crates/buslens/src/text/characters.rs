@@ -31,6 +31,16 @@ pub fn character(text: &[u8]) -> (u8, usize) {
     }
 }
 
+/// Whether `c` is a letter or a digit. Beyond ASCII this goes by blocks: the tables of Unicode would be 2 kB of
+/// the page.
+pub const fn is_letter_or_digit(c: char) -> bool {
+    match c {
+        '×' | '÷' => false,
+        'ª' | 'µ' | 'º' | 'À'..='\u{1FFF}' | '\u{2C00}'..='\u{2DFF}' | '\u{3040}'..='\u{D7FF}' => true,
+        _ => c.is_ascii_alphanumeric(),
+    }
+}
+
 /// What kind of separator `gap` is: its first mark, or a blank; `None` if it parts more than bytes. Colours
 /// of a terminal and marks of emphasis are nothing.
 pub fn separator(gap: &[u8]) -> Option<u8> {

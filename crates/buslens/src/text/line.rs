@@ -249,10 +249,11 @@ impl Scan {
         self.close();
     }
 
-    /// `>` or `<` at the beginning of a line, unless it is a bracket around a byte: `<01><03>`.
+    /// `>` or `<` at the beginning of a line, unless it is a bracket around a byte or around all: `<01><03>`.
     fn points(&mut self, line: &[u8], at: usize) -> usize {
         let word = word_end(line, at + 1);
-        if line.get(word) != Some(&b'>') {
+        let around = line[at] == b'<' && line.trim_ascii_end().ends_with(b">");
+        if line.get(word) != Some(&b'>') && !around {
             let sender = if line[at] == b'>' { Sender::Logger } else { Sender::Other };
             self.say(sender, Weight::Weak);
             self.words -= 1;

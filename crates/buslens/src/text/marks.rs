@@ -1,7 +1,7 @@
 //! A layout that a person makes: in one line it is marked which part is the time, who speaks, and
 //! the bytes.
 
-use super::characters::is_digit;
+use super::characters::{is_digit, is_letter_or_digit};
 use super::time;
 use super::words::Sender;
 use crate::field::{Direction, Span};
@@ -31,7 +31,7 @@ impl Place {
     pub fn of(line: &str, span: Span) -> Self {
         let head = line.get(..span.from).unwrap_or_default();
         let before: String = {
-            let reversed: String = head.chars().rev().take_while(|c| !c.is_alphanumeric()).collect();
+            let reversed: String = head.chars().rev().take_while(|c| !is_letter_or_digit(*c)).collect();
             reversed.chars().rev().collect()
         };
         let nth = if before.is_empty() { 0 } else { head.matches(&before).count().saturating_sub(1) };

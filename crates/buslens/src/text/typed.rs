@@ -1,5 +1,6 @@
 //! What a person types: the bytes of one telegram in their text, and what is wrong with the rest of the line.
 
+use super::characters::is_letter_or_digit;
 use super::line::{Numbers, Scan, Start};
 use crate::field::{Message, Severity, Span};
 use crate::message;
@@ -75,10 +76,10 @@ pub fn remarks(text: &str, from: usize, places: &[Span]) -> Vec<Remark> {
 /// Whether a line without bytes is what a person typed as some: hardly more than hex digits.
 pub fn looks_typed(line: &str) -> bool {
     const WORD: usize = 8;
-    let letters = line.chars().filter(|c| c.is_alphanumeric());
+    let letters = line.chars().filter(|c| is_letter_or_digit(*c));
     let (hex, all) =
         letters.fold((0, 0), |(hex, all), c| (hex + usize::from(c.is_ascii_hexdigit()), all + 1));
-    let short = line.split(|c: char| !c.is_alphanumeric()).all(|word| word.len() <= WORD);
+    let short = line.split(|c: char| !is_letter_or_digit(c)).all(|word| word.len() <= WORD);
     all > 0 && hex * 4 >= all * 3 && short && line.chars().any(|c| c.is_ascii_digit())
 }
 
@@ -117,5 +118,5 @@ fn remark(word: &str, before: usize, span: Span) -> Remark {
 
 /// Whether `c` can be a slip: what parts bytes is none.
 fn is_letter(c: char) -> bool {
-    c.is_alphanumeric() || matches!(c, '?' | '!')
+    is_letter_or_digit(c) || matches!(c, '?' | '!')
 }

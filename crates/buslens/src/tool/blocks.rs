@@ -1,7 +1,7 @@
 //! Bytes that are no telegram: registers by themselves, a parameter channel, process data, a configuration.
 
 use super::{PROFILES, PROTOCOLS, Profile, Settings};
-use crate::device::{Process, one_of};
+use crate::device::Process;
 use crate::dialogue::Certainty;
 use crate::field::{Argument, Direction, Field, Message, Order, Span, problems};
 use crate::frame::{Content, Speaker};
@@ -74,17 +74,12 @@ fn registers(bytes: &[u8], profile: &'static Profile, settings: &Settings) -> Ve
             1 => likely.kind,
             blocks => message!("{kind}, {n} blocks", kind = likely.kind, n = blocks),
         };
-        let wrong = problems(&likely.fields).len();
-        let reason = match wrong {
-            0 => message!("the values are such as these registers hold"),
-            wrong => message!("the length fits, but {n} of the values are not allowed", n = wrong),
-        };
         BlockReading {
             device: profile,
             kind,
             said: likely.said,
-            reason,
-            unknown: message!("the bytes do not tell the register: {things}", things = one_of(&likely.of)),
+            reason: likely.reason,
+            unknown: likely.unknown,
             certainty: Certainty::Open,
             bits: likely.bits,
             fields: likely.fields,

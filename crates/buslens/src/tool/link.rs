@@ -7,6 +7,7 @@
 //! | `protocol`, `direction`, `device` | how it is to be read, by their keys |
 //! | `settings` | how the devices are set up: the bytes of [`settings`] in hex |
 //! | `telegram` | which telegram is shown, from 1 |
+//! | `place` | where in Learn: words with points between them, the part first (`lessons.crc.3`) |
 //! | `task` | what is asked of the device, instead of a telegram: the label of an offer |
 //! | `.` and a path | what was typed into that entry of the form, where the bytes do not tell |
 //!
@@ -25,6 +26,8 @@ pub struct Link {
     /// The index of the telegram that is shown.
     pub telegram: usize,
     pub task: Option<String>,
+    /// Where in Learn.
+    pub place: String,
     /// Paths of entries with what was typed there.
     pub entries: Vec<(String, String)>,
     /// Keys of what it holds that cannot be read: it was cut or changed on its way, or a newer page
@@ -92,6 +95,10 @@ impl Link {
                     link.telegram = number.clone().unwrap_or(1).saturating_sub(1);
                     number.is_ok_and(|number| number > 0)
                 }
+                "place" => {
+                    link.place = value;
+                    true
+                }
                 "task" => {
                     link.task = Some(value);
                     true
@@ -121,6 +128,7 @@ impl Link {
             ("settings", &keep_settings(settings)),
             ("telegram", &telegram),
             ("task", self.task.as_deref().unwrap_or_default()),
+            ("place", &self.place),
             ("text", &self.text),
         ];
         let said = pairs.iter().filter(|(_, value)| !value.is_empty());
@@ -173,6 +181,7 @@ mod tests {
             },
             telegram: 3,
             task: Some("write Batch".to_owned()),
+            place: "lessons.crc".to_owned(),
             entries: vec![("values.0.value".to_owned(), String::new())],
             ..Link::default()
         };
@@ -183,6 +192,7 @@ mod tests {
         assert_eq!(again.options.device.map(|it| it.key), Some(PROFILES[0].key));
         assert_eq!(changed(&again.options.settings), changed(&link.options.settings));
         assert_eq!((again.telegram, &again.task, &again.entries), (3, &link.task, &link.entries));
+        assert_eq!(again.place, link.place);
     }
 
     #[test]

@@ -1,5 +1,5 @@
 //! What a user set up in the devices: entries of a form like those of a telegram, and a text of one
-//! `path = value` in each line for what is not as delivered.
+//! `path = value` in each line for what is no factory setting.
 //!
 //! ```text
 //! dialect = KEB: quantity before address
@@ -58,7 +58,7 @@ pub fn read(text: &str) -> Result<Settings, Message> {
     refused.into_iter().chain(misfits).next().map_or(Ok(settings), Err)
 }
 
-/// The text of what is not as delivered, or a comment that says that all is; [`read`] takes it again.
+/// The text of what is no factory setting, or a comment that says that all is; [`read`] takes it again.
 pub fn write(settings: &Settings) -> String {
     let changed = changed(settings);
     if changed.is_empty() {
@@ -68,21 +68,21 @@ pub fn write(settings: &Settings) -> String {
     changed.into_iter().map(|(path, text)| format!("{path} = {text}\n")).collect()
 }
 
-/// The settings as bytes, which take less room than the text; nothing if they are as delivered.
+/// The settings as bytes, which take less room than the text; nothing if all are factory settings.
 pub fn to_bytes(settings: &Settings) -> Vec<u8> {
     let bytes = |settings: &Settings| walk::write(&mut settings.clone(), &Deviations::default());
     let written = bytes(settings);
     if written == bytes(&Settings::default()) { Vec::new() } else { written }
 }
 
-/// The settings that [`to_bytes`] wrote; what the bytes do not tell is as delivered.
+/// The settings that [`to_bytes`] wrote; what the bytes do not tell is the factory setting.
 pub fn from_bytes(bytes: &[u8]) -> Settings {
     let mut settings = Settings::default();
     walk::read(&mut settings, bytes);
     settings
 }
 
-/// Every entry that is not as delivered, as path and text.
+/// Every entry that is no factory setting, as path and text.
 pub fn changed(settings: &Settings) -> Vec<(String, String)> {
     let as_delivered = entries(&mut Settings::default());
     entries(&mut settings.clone()).changed(&as_delivered)
@@ -251,7 +251,7 @@ mod tests {
     #[test]
     fn settings_are_written_and_read_again() {
         let mut settings = Settings::default();
-        assert!(changed(&settings).is_empty(), "nothing is to be said of what is as delivered");
+        assert!(changed(&settings).is_empty(), "nothing is to be said of factory settings");
         settings.frame.dialect = DIALECTS[1];
         settings.frame.profibus.swap_process = true;
         settings.frame.profibus.layout = Layout { channel: false, outputs: 2, inputs: 8 };

@@ -1,5 +1,5 @@
 //! How devices are set up, as a person reads it: registers and words with the names of their parameters,
-//! and what is not as delivered in sentences.
+//! and what is no factory setting in sentences.
 
 use super::{Settings, UnitDevice};
 use crate::device::{Entry, Mapping, ProcessWord, Profile};
@@ -211,7 +211,7 @@ fn words(words: &[ProcessWord]) -> Vec<Row> {
     rows
 }
 
-/// Something that is not as delivered.
+/// Something that is no factory setting.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
     /// "Register 0000h reads Status word (Sy.51)".
@@ -238,7 +238,7 @@ pub enum What {
     Unit(u8),
 }
 
-/// What is not as delivered, in the order of the settings.
+/// What is no factory setting, in the order of the settings.
 pub fn differences(settings: &Settings) -> Vec<Difference> {
     let usual = Settings::default();
     let mut found = Vec::new();

@@ -1,3 +1,5 @@
+use std::sync::LazyLock;
+
 use crc::{CRC_16_MODBUS as MODBUS, Crc, Table};
 
 /// How check bytes follow from the bytes that they protect.
@@ -38,12 +40,13 @@ static CRC: Crc<u16, Table<1>> = Crc::<u16, Table<1>>::new(&MODBUS);
 /// it quick enough for logs: the bytes of a block do not wait for each other.
 #[inline]
 pub fn crc_residue(frame: &[u8]) -> u16 {
+    let tables = &*BLOCK_TABLES;
     let (blocks, rest) = frame.as_chunks::<BLOCK>();
     let crc = blocks.iter().fold(u16::MAX, |crc, block| {
         let [low, high] = crc.to_le_bytes();
         let [first, second, others @ ..] = block;
-        let crc = BLOCK_TABLES[0][usize::from(first ^ low)] ^ BLOCK_TABLES[1][usize::from(second ^ high)];
-        let others = others.iter().zip(&BLOCK_TABLES[2..]);
+        let crc = tables[0][usize::from(first ^ low)] ^ tables[1][usize::from(second ^ high)];
+        let others = others.iter().zip(&tables[2..]);
         others.fold(crc, |crc, (byte, table)| crc ^ table[usize::from(*byte)])
     });
     rest.iter().fold(crc, |crc, byte| crc_step(crc, *byte))
@@ -52,33 +55,22 @@ pub fn crc_residue(frame: &[u8]) -> u16 {
 /// The CRC behind one more byte.
 #[inline]
 pub const fn crc_step(crc: u16, byte: u8) -> u16 {
-    crc >> 8 ^ BLOCK_TABLES[BLOCK - 1][(crc as u8 ^ byte) as usize]
+    crc >> 8 ^ CRC.table()[0][(crc as u8 ^ byte) as usize]
 }
 
 /// So many bytes are taken at once.
 const BLOCK: usize = 8;
 
-/// What a byte adds to the CRC behind its block, for each place in the block.
-static BLOCK_TABLES: [[u16; 256]; BLOCK] = {
-    let mut tables = [[0; 256]; BLOCK];
-    let mut place = BLOCK;
-    while place > 0 {
-        place -= 1;
-        let mut byte = 0;
-        while byte < 256 {
-            // One byte further from the end: as much as before, and a zero behind it.
-            let mut crc = if place == BLOCK - 1 { byte as u16 } else { tables[place + 1][byte] };
-            let mut bit = 0;
-            while bit < 8 {
-                crc = if crc & 1 == 1 { crc >> 1 ^ 0xA001 } else { crc >> 1 };
-                bit += 1;
-            }
-            tables[place][byte] = crc;
-            byte += 1;
-        }
+/// What a byte adds to the CRC behind its block, for each place in the block. Worked out where they are first
+/// needed: no compression makes them smaller, and everybody would wait for them.
+static BLOCK_TABLES: LazyLock<[[u16; 256]; BLOCK]> = LazyLock::new(|| {
+    let mut tables = [CRC.table()[0]; BLOCK];
+    for place in (0..BLOCK - 1).rev() {
+        // One byte further from the end: as much as before, and a zero behind it.
+        tables[place] = tables[place + 1].map(|crc| crc_step(crc, 0));
     }
     tables
-};
+});
 
 /// The check of Modbus ASCII: what is missing from the sum of the bytes to 0, in one byte.
 ///

@@ -374,6 +374,15 @@ impl Traffic {
             .filter(|(candidate, chosen)| fits(chosen, candidate.bytes) > COMPANY)
             .map(|(candidate, chosen)| (candidate.bytes.len(), chosen.key))
             .collect();
+        // Who prints one telegram without its check prints all so.
+        let none_checked = self.entries.iter().all(|entry| entry.verdict != Verdict::Right)
+            && weak.iter().any(|one| {
+                let entry = &self.entries[one.entry as usize];
+                one.read
+                    && !one.cut
+                    && entry.protocol().is(&modbus_unchecked::PROTOCOL)
+                    && !self.lacks_data(one.entry as usize)
+            });
         for one in weak {
             let chosen = choices[one.entry as usize];
             let index = one.entry as usize;
@@ -383,7 +392,7 @@ impl Traffic {
             let other = bits >= SURE
                 || (family(chosen) != Family::Serial && bits > COMPANY + 2)
                 || self.settings.bus.is_some_and(|bus| bus == chosen.bus() && bus != own.bus())
-                || (self.lacks_data(index) && !one.cut)
+                || (self.lacks_data(index) && !one.cut && !none_checked)
                 || !one.read
                 || chosen.is(&modbus_ascii::PROTOCOL);
             one.read |= bits > 0 || company.contains(&(telegram.len(), chosen.key));

@@ -1,0 +1,276 @@
+//! What is made of bytes that come one behind the other: streams, connections, lines with a byte each.
+
+use std::fmt::Write as _;
+
+use buslens::dialogue::traffic::{Chunk, Hint, Role, Traffic, statistics};
+use buslens::field::{Direction, hex};
+use buslens::frame::Settings;
+use buslens::tool::Protocol;
+
+use super::{assert_table, bytes};
+
+const ASKS: &str = "01 03 00 C8 00 03 84 35";
+const ANSWERS: &str = "01 03 06 00 80 42 A4 F1 DE B0 F8";
+const ANSWERS_TOO: &str = "01 03 06 00 80 00 00 00 00 1D 67";
+
+/// How the chunks of a case come.
+#[derive(Clone, Copy, PartialEq)]
+enum Way {
+    /// Without anything that parts telegrams.
+    Stream,
+    /// Each by itself.
+    Pieces,
+    /// A byte or two each, with their times.
+    Flow,
+    /// Two directions of a connection.
+    Connection,
+}
+
+/// The entries that come of chunks: `port hint time: bytes`, parted by slashes.
+fn told(table: &mut String, way: Way, protocol: &str, chunks: &str) {
+    let mut traffic = Traffic::new(Protocol::of(protocol).unwrap(), &Settings::default());
+    match way {
+        Way::Stream => traffic.stream(),
+        Way::Flow => traffic.flow(),
+        Way::Pieces | Way::Connection => {}
+    }
+    let mut offset = 0;
+    for chunk in chunks.split(" / ") {
+        let (head, text) = chunk.split_once(": ").unwrap_or(("", chunk));
+        let text = text.replace("ASKS", ASKS).replace("ANSWERS_TOO", ANSWERS_TOO).replace("ANSWERS", ANSWERS);
+        let bytes: Vec<u8> = text
+            .split(' ')
+            .filter(|part| !part.is_empty())
+            .flat_map(|part| match part.split_once('x') {
+                // 00x300: so many of a byte.
+                Some((byte, count)) => vec![u8::from_str_radix(byte, 16).unwrap(); count.parse().unwrap()],
+                None => bytes(part),
+            })
+            .collect();
+        let mut of_head = Chunk { bytes: &bytes, offset, line: 0, ..Chunk::default() };
+        for word in head.split(' ').filter(|word| !word.is_empty()) {
+            match word {
+                ">" => of_head.hint = Hint::Logger,
+                "<" => of_head.hint = Hint::Other,
+                "?" => of_head.hint = Hint::Says(Direction::Request),
+                "!" => of_head.hint = Hint::Says(Direction::Response),
+                "+" => of_head.joins = true,
+                "known" => of_head.known_port = true,
+                word => match word.strip_prefix('p') {
+                    Some(port) => of_head.port = port.parse().unwrap(),
+                    None => of_head.time = Some((word.parse::<f64>().unwrap() * 1e6) as i64),
+                },
+            }
+        }
+        of_head.both_ways = way == Way::Connection;
+        traffic.take(of_head);
+        offset += bytes.len() as u32;
+    }
+    traffic.finish(false);
+    writeln!(table, "{chunks}").unwrap();
+    for entry in traffic.entries() {
+        let own = traffic.bytes(entry);
+        let bytes = match own.len() {
+            0..=40 => hex(own),
+            length => format!("{} … ({length} bytes)", hex(&own[..8])),
+        };
+        let mut said = format!(
+            "{bytes} | at {}+{}, {} {:?} {:?}",
+            entry.offset,
+            entry.skip,
+            entry.protocol().key,
+            entry.verdict,
+            entry.direction
+        );
+        if entry.role != Role::Plain {
+            write!(said, " {:?}", entry.role).unwrap();
+        }
+        if let Some(partner) = entry.partner() {
+            write!(said, ", with {partner}").unwrap();
+        }
+        write!(said, ", unit {:?}, function {}, sides {:?}", entry.unit, entry.function, entry.sides())
+            .unwrap();
+        if entry.port > 0 {
+            write!(said, ", port {}", entry.port).unwrap();
+        }
+        if let Some(time) = entry.time() {
+            write!(said, ", time {time}").unwrap();
+        }
+        writeln!(table, "    {said}").unwrap();
+    }
+    if !traffic.pauses().is_empty() {
+        writeln!(table, "    pauses {:?}", traffic.pauses()).unwrap();
+    }
+    if traffic.foreign() > 0 {
+        writeln!(table, "    {} of no telegrams", traffic.foreign()).unwrap();
+    }
+    let all = statistics(&traffic);
+    let dialogs = all.dialogs.len();
+    writeln!(
+        table,
+        "    {} telegrams, {} pairs, {} unanswered, {} retries, {} unasked, {} late, {} echoes, {} copies, {} broadcasts, \
+         {} exceptions, {} wrong, {} unchecked, {} discarded, times {:?}",
+        all.telegrams,
+        all.pairs,
+        all.unanswered,
+        all.retries,
+        all.unasked,
+        all.late,
+        all.echoes,
+        all.copies,
+        all.broadcasts,
+        all.exceptions,
+        all.check_failed,
+        all.unchecked,
+        all.bytes_discarded,
+        all.times
+    )
+    .unwrap();
+    for it in all.dialogs.iter().filter(|it| dialogs > 1 || it.median.is_some() || it.silent.is_some()) {
+        writeln!(
+            table,
+            "    port {} unit {:?} function {}: {} telegrams, {} requests, {} answered, {} unanswered, {} retries, \
+             {} exceptions, {} wrong, median {:?}, worst {:?}, silent {:?}",
+            it.port,
+            it.unit,
+            it.function,
+            it.telegrams,
+            it.requests,
+            it.answered,
+            it.unanswered,
+            it.retries,
+            it.exceptions,
+            it.check_failed,
+            it.median,
+            it.worst,
+            it.silent.map(|it| (it.from, it.to, it.count))
+        )
+        .unwrap();
+    }
+}
+
+#[test]
+fn streams_and_connections() {
+    let mut table = String::new();
+    for (way, protocol, cases) in [
+        (
+            Way::Stream,
+            "modbus-rtu",
+            &[
+                "ASKS ANSWERS ASKS ANSWERS_TOO",
+                "ASKS / ANSWERS",
+                "01 03 00 C8 / 00 03 84 / 35 01 03 06 00 / 80 42 A4 F1 DE B0 F8",
+                "55 ASKS AA AA ANSWERS FF",
+                "ASKS 01 03 06 00 80 42 A4 F1 DE B0 F9 ASKS",
+                "ASKS 01 03 06 00 80 ASKS ANSWERS",
+                "ASKS 01 83 02 C0 F1 01 83 02 C0 F2 ASKS",
+                "00x300 ASKS",
+                "FFx20000 ASKS",
+                "11 22 33",
+                "01 03 00 C8 00 03 84",
+                "11 42 01 02 03 5D 21 ASKS",
+                "02 06 00 C8 00 05 00 00 ASKS",
+                "ASKS ASKS ANSWERS ASKS ASKS ANSWERS ASKS ASKS ANSWERS",
+                "ASKS ASKS ANSWERS ANSWERS ASKS ASKS ANSWERS ANSWERS",
+                "01 05 00 C8 FF 00 0D C4 01 05 00 C8 FF 00 0D C4 01 05 00 C8 00 00 4C 34 01 05 00 C8 00 00 4C 34",
+                "01 05 00 C8 FF 00 0D C4 01 05 00 C8 00 00 4C 34",
+                "00 05 00 C8 FF 00 0C 15 ASKS ANSWERS",
+                "ANSWERS ASKS",
+            ][..],
+        ),
+        (
+            Way::Stream,
+            "modbus-tcp",
+            &[
+                "00 01 00 00 00 06 01 03 00 C8 00 03 00 01 00 00 00 09 01 03 06 00 80 42 A4 F1 DE",
+                "00 01 00 00 00 06 01 03 00 C8 00 03 55 00 02 00 00 00 06 01 03 00 C8 00 03",
+                "00 01 00 00 00 06 01 03 00 C8 / 00 03 00 02 00 00 00 06 01 03 00 C8 00",
+                "00 01 00 00 00 06 01 03 00 C8 00 03 00 02 00 00 00 06 01 03 00 C8 00 03 00 02 00 00 00 03 01 83 02 \
+                 00 01 00 00 00 03 01 83 02",
+            ],
+        ),
+        (
+            Way::Stream,
+            "profibus-fdl",
+            &[
+                "10 01 02 49 4C 16 E5 68 05 05 68 81 82 5D 3B 3E D9 16 E5 DC 01 02",
+                "10 01 02 49 4D 16 10 01 02 49 4C 16",
+                "55 68 05 05 68 81 82 5D 3B 3E / D9 16",
+            ],
+        ),
+        (
+            Way::Pieces,
+            "modbus-rtu",
+            &[
+                "0: ASKS / 0.02: ANSWERS / 1: ASKS / 1.5: ANSWERS / 2: ASKS / 2.03: ANSWERS",
+                "> 0: ASKS / < 0.02: ANSWERS / > 1: ASKS / < 1.2: 01 83 02 C0 F1",
+                "< 0: ASKS / > 0.02: ANSWERS / < 1: ASKS / > 1.02: ANSWERS",
+                "> 0: ASKS / < 0.01: ASKS / < 0.02: ANSWERS / > 1: ASKS / < 1.01: ASKS / < 1.02: ANSWERS",
+                "? 0: ASKS / ! 0.02: ASKS",
+                "? p0 0: ASKS / ! p1 0.02: ANSWERS",
+                "p0 0: ASKS / p1 0.02: ANSWERS",
+                "? p0 0: 01 05 00 C8 FF 00 0D C4 / ! p1 0.02: 01 05 00 C8 FF 00 0D C4",
+                "p0 0: ASKS / p1 0.01: ASKS / p0 0.02: ANSWERS / p1 0.03: ANSWERS",
+                "0: ASKS / 1: ASKS / 2: 02 03 00 C8 00 03 84 06 / 2.5: ANSWERS",
+                "0: ASKS / 1: 02 03 00 C8 00 03 84 06 / 2: 03 03 00 C8 00 03 85 D7 / 3: ANSWERS",
+                "86399.9: ASKS / 0.1: ANSWERS",
+                "50000: ASKS / 49999: ANSWERS",
+                "43200: ASKS / 0: ANSWERS",
+                "43201: ASKS / 0: ANSWERS",
+                "90000: ASKS / 0: ANSWERS",
+                "0: 01 03 00 C8 / + 0.1: 00 03 84 35",
+                "0: ASKS / 1: ASKS / 2: ASKS / 3: ASKS / 4: ASKS / 5: ASKS / 100: ANSWERS",
+                "0: 02 03 00 C8 00 03 84 06 / 1: 02 03 00 C9 00 03 D5 C6 / 2: 02 03 00 CA 00 03 25 C6 / 3: 02 03 00 CB 00 03 74 06 / \
+                 4: 02 03 00 CC 00 03 C5 C7 / 100: ASKS / 100.02: ANSWERS",
+                "0: ASKS / 0.01: ANSWERS / 1: ASKS / 1.05: ANSWERS / 2: ASKS / 2.03: ANSWERS / 3: ASKS / 3.04: ANSWERS",
+                "02x300",
+                "ASKS ASKS ASKS ASKS ASKS ASKS ASKS ASKS ASKS ASKS ASKS ASKS ASKS ASKS ASKS ASKS ASKS ASKS ASKS ASKS",
+                "01 03 00 C8 00 03 00x1100",
+                "11 42 01 02 03 5D 21 / 11 42 01 02 03 5D 21",
+                "11 42 01 02 03 5D 21 / 11 42 01 02 03 5D 21 / 11 42 09 09 09 D7 E7",
+            ],
+        ),
+        (
+            Way::Flow,
+            "modbus-rtu",
+            &[
+                "0: 01 / 0.001: 03 / 0.002: 00 / 0.003: C8 / 0.004: 00 / 0.005: 03 / 0.006: 84 / 0.007: 35 / 0.02: 01 / 0.021: 03 / \
+                 0.022: 06 / 0.023: 00 / 0.024: 80 / 0.025: 42 / 0.026: A4 / 0.027: F1 / 0.028: DE / 0.029: B0 / 0.03: F8",
+                "0: 01 03 / 0.5: 00 C8 / 1.4: 00 03 / 1.5: 84 35",
+                "0: 01 03 / 0.5: 00 C8 / 1.6: 00 03 / 1.7: 84 35",
+                "> 0: 01 03 00 C8 / < 0.1: 00 03 84 35",
+                "> 0: 01 03 00 C8 00 03 84 35 / < 0.1: 01 03 06 00 / < 0.2: 80 42 A4 F1 / < 0.9: DE B0 F8",
+                "0: FF / 0.1: 01 03 00 C8 00 03 84 35",
+            ],
+        ),
+        (
+            Way::Connection,
+            "modbus-tcp",
+            &[
+                "known ? 0: 00 01 00 00 00 06 01 03 00 C8 00 03 / known ! 0.01: 00 01 00 00 00 09 01 03 06 00 80 42 A4 F1 DE",
+                "? 0: 00 01 00 00 00 06 01 03 00 C8 00 03 / ! 0.01: 00 01 00 00 00 09 01 03 06 00 80 42 A4 F1 DE",
+                "? 0: 00 01 00 00 00 06 01 63 00 C8 00 03 / ! 0.01: 00 01 00 00 00 09 01 63 06 00 80 42 A4 F1 DE",
+                "known ? 0: 00 01 00 00 00 06 01 63 00 C8 00 03",
+                "? 0: 00 01 00 00 00 06 01 07 00 C8 00 03 / ? 1: 00 02 00 00 00 02 01 07",
+                "? 0: 00 01 00 00 00 02 01 07 00 02 00 00 00 02 01 07",
+                "? 0: 00 01 00 00 00 06 01 / ? 0.1: 03 00 C8 00 03",
+                "? 0: ASKS / ! 0.1: ANSWERS",
+                "? 0: 47 45 54 20 2F / ! 0.1: 48 54 54 50",
+                "? 0: 47x4000 / ? 1: 47x200 / ! 2: 48x10",
+                "? 0: 47x4096 / ? 1: 00 01 00 00 00 06 01 03 00 C8 00 03",
+                "? 0: 47x4097 / ? 1: 00 01 00 00 00 06 01 03 00 C8 00 03",
+                "? 0: 00 01 00 00 00 07 01 03 00 C8 00 03 / ? 1: 00 02 00 00 00 06 01 03 00 C8 00 03",
+                "known ? 0: 00 01 00 00 00 06 01 03 00 C8 00 03 / known ? 1: 00 02 00 00 00 09 01 03 00 C8 00 03 / \
+                 known ? 2: 00 03 00 00 00 06 01 03 00 C8 00 03",
+                "known ? 0: 00 C8 00 03 / known ? 1: 00 02 00 00 00 06 01 03 00 C8 00 03",
+                "p0 known ? 0: 00 01 00 00 00 06 01 03 00 C8 00 03 / p1 ? 0: 47 45 54 / p1 ! 1: 48 54 54 50 / \
+                 p0 ! 1: 00 01 00 00 00 09 01 03 06 00 80 42 A4 F1 DE",
+            ],
+        ),
+    ] {
+        for chunks in cases {
+            told(&mut table, way, protocol, chunks);
+        }
+    }
+    assert_table("traffic", &table);
+}
