@@ -177,9 +177,7 @@ impl<S: Source> Reader<S> {
         let index = match which {
             Which::At(place) => at(place),
             Which::Index(index) => Some(index).filter(|index| *index < entries.len()),
-            Which::Wrong { from, forwards: true } => {
-                (from + 1..self.chosen.len()).filter_map(at).find(wrong)
-            }
+            Which::Wrong { from, forwards: true } => (from + 1..self.chosen.len()).filter_map(at).find(wrong),
             Which::Wrong { from, forwards: false } => {
                 (0..from.min(self.chosen.len())).rev().filter_map(at).find(wrong)
             }
@@ -292,9 +290,11 @@ impl<S: Source> Reader<S> {
 
     /// What telegrams say, each by itself, with what their partners tell of them.
     fn read(&self, chosen: &[u32], kind: Export, notes: &BTreeMap<usize, String>) -> String {
-        let entries = self.log.entries();
-        let chosen: Vec<usize> =
-            chosen.iter().map(|index| *index as usize).filter(|index| self.log.entry(*index).counts()).collect();
+        let chosen: Vec<usize> = chosen
+            .iter()
+            .map(|index| *index as usize)
+            .filter(|index| self.log.entry(*index).counts())
+            .collect();
         let read = self.log.with_partners(chosen.iter().copied());
         let mut report = self.log.report(&self.source, &read);
         for telegram in &mut report.telegrams {

@@ -131,7 +131,8 @@ fn every_kind_is_found_in_a_stream() {
         let what = format!("{} of {}", stream.dialect.key, stream.protocol.key);
         assert!(log.entries().iter().all(|entry| entry.role != Role::Discarded), "{what}");
         let file = stream.bytes();
-        let found: Vec<_> = log.entries().iter().map(|entry| log.bytes(&&file[..], &entry).into_owned()).collect();
+        let found: Vec<_> =
+            log.entries().iter().map(|entry| log.bytes(&&file[..], &entry).into_owned()).collect();
         let sent: Vec<Vec<u8>> = stream.telegrams.iter().map(|(_, _, bytes)| bytes.clone()).collect();
         assert_eq!(found, sent, "{what}");
         for (entry, (spec, direction, _)) in log.entries().iter().zip(&stream.telegrams) {

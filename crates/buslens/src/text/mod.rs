@@ -608,7 +608,9 @@ fn pairs(line: &[u8], bytes: &[u8], places: &[Span]) -> Option<(usize, u8)> {
     let (first, second) = (places.first()?, places.get(1)?);
     let step = u8::try_from(second.from.checked_sub(first.from)?).ok().filter(|step| *step > 1)?;
     // The digits may stand behind a mark: `0x01`.
-    let from = [first.from, first.to.checked_sub(2)?].into_iter().find(|at| pair(line, *at) == bytes.first().copied())?;
+    let from = [first.from, first.to.checked_sub(2)?]
+        .into_iter()
+        .find(|at| pair(line, *at) == bytes.first().copied())?;
     let digits = (from..).step_by(step.into());
     digits.zip(bytes).all(|(at, byte)| pair(line, at) == Some(*byte)).then_some((from, step))
 }

@@ -64,12 +64,13 @@ fn told(table: &mut String, way: Way, protocol: &str, chunks: &str) {
         }
         of_head.both_ways = way == Way::Connection;
         traffic.take(of_head);
-        offset += bytes.len() as u32;
+        offset += bytes.len() as u64;
     }
-    traffic.finish(false);
+    traffic.untyped();
+    traffic.finish();
     writeln!(table, "{chunks}").unwrap();
     for entry in traffic.entries() {
-        let own = traffic.bytes(entry);
+        let own = traffic.entries().kept(&entry).unwrap();
         let bytes = match own.len() {
             0..=40 => hex(own),
             length => format!("{} … ({length} bytes)", hex(&own[..8])),

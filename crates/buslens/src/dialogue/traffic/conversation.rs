@@ -175,9 +175,8 @@ impl Habits {
                 _ => {}
             }
             hinted += i64::from(matches!(entry.hint, Hint::Logger | Hint::Other)) * side.abs();
-            let same = previous.is_some_and(|it| {
-                alike(bytes(it, data), bytes(entry, data)) && it.port == entry.port
-            });
+            let same = previous
+                .is_some_and(|it| alike(bytes(it, data), bytes(entry, data)) && it.port == entry.port);
             doubled = same && !doubled;
             counts[(1 - side) as usize][usize::from(doubled)] += 1;
             previous = Some(entry);

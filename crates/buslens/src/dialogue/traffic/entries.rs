@@ -135,7 +135,11 @@ impl Kept {
     fn push(&mut self, bytes: &[u8]) -> u64 {
         if self.blocks.last().is_none_or(|last| last.len() + bytes.len() > Self::BLOCK) {
             // Few logs have more than one.
-            self.blocks.push(if self.blocks.is_empty() { Vec::new() } else { Vec::with_capacity(Self::BLOCK) });
+            self.blocks.push(if self.blocks.is_empty() {
+                Vec::new()
+            } else {
+                Vec::with_capacity(Self::BLOCK)
+            });
         }
         let at = self.end();
         if let Some(last) = self.blocks.last_mut() {

@@ -176,12 +176,7 @@ impl Traffic {
     }
 
     /// Takes the first `count` entries out, but for those that are `gone`, and with `more` in place of some.
-    fn take_out(
-        &mut self,
-        count: usize,
-        gone: &HashSet<u32>,
-        more: Vec<(u32, Vec<Entry>)>,
-    ) -> Vec<Entry> {
+    fn take_out(&mut self, count: usize, gone: &HashSet<u32>, more: Vec<(u32, Vec<Entry>)>) -> Vec<Entry> {
         if gone.is_empty() && self.fresh_pauses.is_empty() {
             self.count_from(count, gone);
             return self.entries.drain(..count).collect();

@@ -59,9 +59,7 @@ impl<const N: usize> Packed<N> {
     #[inline]
     pub fn numbers<const M: usize>(&self, index: usize, columns: [usize; M]) -> Option<[u64; M]> {
         match self.chunks.get(index / CHUNK) {
-            Some(chunk) => {
-                Some(columns.map(|column| Head::of(chunk, column).number(chunk, index % CHUNK)))
-            }
+            Some(chunk) => Some(columns.map(|column| Head::of(chunk, column).number(chunk, index % CHUNK))),
             None => self.open.get(index - self.chunks.len() * CHUNK).map(|row| columns.map(|at| row[at])),
         }
     }

@@ -76,7 +76,8 @@ impl Traffic {
             return self.column(index, bytes, decimal, row);
         }
         let latest = &mut self.latest_piece;
-        let twice = (latest.line, latest.hint) == (row.line, row.hint) && latest.bytes == bytes && !facts.said;
+        let twice =
+            (latest.line, latest.hint) == (row.line, row.hint) && latest.bytes == bytes && !facts.said;
         if twice && row.line > 0 && bytes.len() > 1 {
             return;
         }

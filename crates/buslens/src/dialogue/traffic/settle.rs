@@ -38,6 +38,8 @@ impl Traffic {
         self.settle_blocks(u32::MAX);
         self.settle(self.entries.len());
         self.close_lines(u32::MAX);
+        // Nothing comes any more.
+        (self.entries, self.data) = (Vec::new(), Vec::new());
     }
 
     /// Where the next block ends: behind an answer and a line, if there is such a place nearby.

@@ -31,7 +31,8 @@ impl<'a> Bytes<'a> {
             return kept;
         }
         let (from, step, length) = place(entry);
-        let covered = from.checked_sub(self.from).is_some_and(|at| at + length as u64 <= self.part.len() as u64);
+        let covered =
+            from.checked_sub(self.from).is_some_and(|at| at + length as u64 <= self.part.len() as u64);
         if !covered {
             // Who looks at one telegram needs no more.
             let first = self.part.is_empty();

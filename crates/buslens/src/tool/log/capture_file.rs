@@ -45,7 +45,8 @@ impl CaptureFile {
         notes: &BTreeMap<usize, String>,
     ) -> Vec<u8> {
         let entries = log.entries();
-        let counted = indices.iter().copied().filter(|index| entries.get(*index).is_some_and(|entry| entry.counts()));
+        let counted =
+            indices.iter().copied().filter(|index| entries.get(*index).is_some_and(|entry| entry.counts()));
         let counted: Vec<usize> = counted.collect();
         // A response says more when its request is known.
         let read = log.with_partners(counted.iter().copied());

@@ -130,10 +130,12 @@ impl Log {
                 && match &text {
                     Text::Any => true,
                     Text::Bytes(wanted) => holds(bytes.of(entry), wanted),
-                    Text::Registers(ranges) => self.registers_in(&mut bytes, entry).is_some_and(|(start, count)| {
-                        let last = start.saturating_add(count.saturating_sub(1));
-                        ranges.iter().any(|(from, to)| start <= *to && last >= *from)
-                    }),
+                    Text::Registers(ranges) => {
+                        self.registers_in(&mut bytes, entry).is_some_and(|(start, count)| {
+                            let last = start.saturating_add(count.saturating_sub(1));
+                            ranges.iter().any(|(from, to)| start <= *to && last >= *from)
+                        })
+                    }
                     Text::Lines(offsets) => offsets.binary_search(&entry.offset).is_ok(),
                 }
         };

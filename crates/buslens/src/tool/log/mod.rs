@@ -470,7 +470,9 @@ impl Log {
     pub fn fault(&self) -> Option<String> {
         let more = self.full && self.fault.is_none();
         self.fault.clone().or_else(|| {
-            more.then(|| "This device has not enough memory for all of the log: the rest was not read.".into())
+            more.then(|| {
+                "This device has not enough memory for all of the log: the rest was not read.".into()
+            })
         })
     }
 
@@ -528,9 +530,7 @@ fn take(event: Event<'_>, traffic: &mut Traffic, ports: &mut Ports) -> bool {
         known_port: false,
         line: piece.line,
         offset: piece.offset,
-        written: piece
-            .pairs
-            .and_then(|(from, step)| Some(Written { from: u32::try_from(from).ok()?, step })),
+        written: piece.pairs.and_then(|(from, step)| Some(Written { from: u32::try_from(from).ok()?, step })),
         facts: Some(piece.facts),
         decimal: piece.decimal,
         breaks: piece.breaks,
