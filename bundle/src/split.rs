@@ -6,6 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use wasm_split_cli_support::{Options, transform};
+use wasmparser::{KnownCustom, Linking, Parser, Payload, SymbolFlags, SymbolInfo};
 
 use crate::names;
 use crate::order::ordered;
@@ -24,6 +25,12 @@ pub struct Split {
 pub const LINK: &str = "./__wasm_split.js";
 
 pub fn split(wasm: &[u8], folder: &Path) -> Result<Split, String> {
+    if let Some(name) = missing_data(wasm)? {
+        return Err(format!(
+            "The module refers to `{name}`, which is not in it: parts of earlier builds were taken that do not fit \
+             (rust-lang/rust#85309). Remove the folder `incremental` beside the module, and build again."
+        ));
+    }
     let says = |error| format!("the folder for the parts: {error}.");
     // What an earlier build left would be taken for parts of this one.
     if folder.exists() {
@@ -52,6 +59,27 @@ pub fn split(wasm: &[u8], folder: &Path) -> Result<Split, String> {
         link = link.replace(&from, &to);
     }
     Ok(Split { main: read(&main)?, later, link })
+}
+
+/// Data that the module refers to and that nobody defines. The linker lets it be at address 0, and so the page
+/// would call "null function" when it comes to use it. What the compiler kept of earlier builds can be so.
+fn missing_data(wasm: &[u8]) -> Result<Option<String>, String> {
+    let says = |error| format!("The module cannot be read: {error}.");
+    for payload in Parser::new(0).parse_all(wasm) {
+        let Payload::CustomSection(section) = payload.map_err(says)? else { continue };
+        let KnownCustom::Linking(linking) = section.as_known() else { continue };
+        for part in linking {
+            let Linking::SymbolTable(symbols) = part.map_err(says)? else { continue };
+            for symbol in symbols {
+                if let SymbolInfo::Data { name, symbol: None, flags } = symbol.map_err(says)?
+                    && !flags.contains(SymbolFlags::BINDING_WEAK)
+                {
+                    return Ok(Some(name.to_owned()));
+                }
+            }
+        }
+    }
+    Ok(None)
 }
 
 /// The glue with the script that loads the later parts in it. Each of the two imports the other, so they
@@ -158,5 +186,23 @@ mod tests {
             "function f() {\nreturn {\n\"./page_bg.js\": import0,\n\"./__wasm_split.js\": import1,\n};\n}\n\
              const a = 1;\nconst load = a;\nconst import1 = { load };\n"
         );
+    }
+
+    #[test]
+    fn data_that_is_not_there_is_noticed() {
+        const DATA: u8 = 1;
+        const UNDEFINED: u8 = 0x10;
+        const WEAK: u8 = 0x01;
+        let module = |symbols: &[u8]| {
+            let table = [&[8, symbols.len() as u8], symbols].concat();
+            let section = [&[7], &b"linking"[..], &[2], &table].concat();
+            [b"\0asm\x01\0\0\0", &[0, section.len() as u8][..], &section].concat()
+        };
+        let there = [1, DATA, 0, 1, b'a', 0, 0, 4];
+        let weak = [1, DATA, UNDEFINED | WEAK, 1, b'a'];
+        let missing = [2, DATA, 0, 1, b'a', 0, 0, 4, DATA, UNDEFINED, 1, b'b'];
+        assert_eq!(missing_data(&module(&there)).unwrap(), None);
+        assert_eq!(missing_data(&module(&weak)).unwrap(), None);
+        assert_eq!(missing_data(&module(&missing)).unwrap(), Some("b".to_owned()));
     }
 }

@@ -1,9 +1,10 @@
 //! A browser with the page in it, as the tests in `tests/` use it.
 //!
-//! `cargo xtask test` builds the page, serves it, starts a WebDriver and runs the tests with what
-//! they need in the environment: `BUSLENS_URL`, `BUSLENS_DIST`, `WEBDRIVER_URL`, `BUSLENS_CHROMIUM`,
-//! `BUSLENS_AXE` and `BUSLENS_SCREENSHOTS`.
+//! `cargo xtask test` builds the page, serves it, and runs the tests with what
+//! they need in the environment: `BUSLENS_URL`, `BUSLENS_DIST`, `BUSLENS_ENGINE`, `BUSLENS_BROWSER`,
+//! `BUSLENS_DRIVER`, `BUSLENS_KEEPER`, `BUSLENS_AXE` and `BUSLENS_SCREENSHOTS`.
 
+mod browser;
 mod fields;
 mod site;
 
@@ -11,9 +12,10 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use serde_json::{Value, json};
-use thirtyfour::LoggingPrefsLogLevel;
 use thirtyfour::prelude::*;
 
+use browser::Driver;
+pub use browser::{Engine, chromium_only};
 pub use site::{Files, Site, dist, next_version, version};
 
 /// What a step of a test gives; the error says what went wrong.
@@ -31,8 +33,12 @@ pub const VIEWS: [&str; 5] = ["#/read", "#/build", "#/check", "#/devices", "#/sh
 /// A page of its own in a browser of its own.
 pub struct Page {
     pub driver: WebDriver,
+    /// Ends with it.
+    _running: Driver,
     /// What its browser keeps, and by which it is known among others.
     profile: tempfile::TempDir,
+    /// Where files go that it saves.
+    downloads: tempfile::TempDir,
 }
 
 impl Page {
@@ -55,30 +61,13 @@ impl Page {
     }
 
     /// A browser without the page.
-    pub async fn empty((width, height): (u32, u32), dark: bool) -> Result<Self> {
-        let mut options = DesiredCapabilities::chrome();
-        options.set_binary(&setting("BUSLENS_CHROMIUM"))?;
-        for argument in [
-            "--headless",
-            "--no-sandbox",
-            "--disable-gpu",
-            "--no-first-run",
-            "--disable-background-networking",
-            "--disable-component-update",
-            "--disable-sync",
-        ] {
-            options.add_arg(argument)?;
-        }
-        let profile = tempfile::tempdir()?;
-        options.add_arg(&format!("--user-data-dir={}", profile.path().display()))?;
-        options.set_browser_log_level(LoggingPrefsLogLevel::All)?;
-        let driver = WebDriver::new(&setting("WEBDRIVER_URL"), options).await?;
-        let metrics =
-            json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600 });
-        driver.cdp().send_raw("Emulation.setDeviceMetricsOverride", metrics).await?;
-        let scheme = json!({ "name": "prefers-color-scheme", "value": if dark { "dark" } else { "light" } });
-        driver.cdp().send_raw("Emulation.setEmulatedMedia", json!({ "features": [scheme] })).await?;
-        Ok(Self { driver, profile })
+    pub async fn empty(size: (u32, u32), dark: bool) -> Result<Self> {
+        let (profile, downloads) = (tempfile::tempdir()?, tempfile::tempdir()?);
+        let running = Driver::start(dark);
+        let wanted = browser::capabilities(profile.path(), downloads.path(), dark)?;
+        let driver = WebDriver::new(running.address(), wanted).await?;
+        browser::show_as(&driver, size, dark).await?;
+        Ok(Self { driver, _running: running, profile, downloads })
     }
 
     /// Loads the page anew, with another view or a link.
@@ -167,9 +156,12 @@ impl Page {
 
     /// Pastes `text` where nothing is typed, which puts it in the place of the input.
     pub async fn paste(&self, text: &str) -> Result {
-        let script = "document.activeElement?.blur(); const data = new DataTransfer(); \
-                      data.setData('text', arguments[0]); document.body.dispatchEvent(new ClipboardEvent('paste', \
-                      { clipboardData: data, bubbles: true, cancelable: true }))";
+        // Firefox keeps from the page what a script puts into such an event as it is made.
+        let script = "document.activeElement?.blur(); const clipboardData = new DataTransfer(); \
+                      clipboardData.setData('text', arguments[0]); \
+                      const event = new ClipboardEvent('paste', { bubbles: true, cancelable: true }); \
+                      Object.defineProperty(event, 'clipboardData', { value: clipboardData }); \
+                      document.body.dispatchEvent(event)";
         self.driver.execute(script, vec![json!(text)]).await?;
         self.settle().await
     }
@@ -291,28 +283,36 @@ impl Page {
 
     /// What came to the browser's console since the last look.
     pub async fn console(&self) -> Result<Vec<String>> {
-        let entries = self.driver.browser_log().await?;
-        Ok(entries.into_iter().map(|entry| format!("{}: {}", entry.level, entry.message)).collect())
+        browser::console(&self.driver).await
     }
 
     /// Lets the page and the tests use the clipboard.
     pub async fn allow_clipboard(&self) -> Result {
+        if Engine::now() != Engine::Chromium {
+            return Ok(());
+        }
         let permissions = json!({ "permissions": ["clipboardReadWrite", "clipboardSanitizedWrite"] });
         self.driver.cdp().send_raw("Browser.grantPermissions", permissions).await.map(drop)
     }
 
     /// Clicks what saves a file, and says where the file is.
     pub async fn saved(&self, css: &str) -> Result<PathBuf> {
-        let folder = tempfile::tempdir()?.keep();
-        let to = json!({ "behavior": "allow", "downloadPath": folder });
-        self.driver.cdp().send_raw("Browser.setDownloadBehavior", to).await?;
+        let folder = self.downloads.path();
+        if Engine::now() == Engine::Chromium {
+            let to = json!({ "behavior": "allow", "downloadPath": folder });
+            self.driver.cdp().send_raw("Browser.setDownloadBehavior", to).await?;
+        }
+        let before: Vec<_> = std::fs::read_dir(folder)?.flatten().map(|entry| entry.path()).collect();
         self.click(css).await?;
         for _ in 0..200 {
             tokio::time::sleep(Duration::from_millis(25)).await;
-            let found = std::fs::read_dir(&folder)?.flatten().map(|entry| entry.path());
+            let found = std::fs::read_dir(folder)?.flatten().map(|entry| entry.path());
+            let found = found.filter(|path| !before.contains(path));
             let whole = |path: &PathBuf| {
                 let ends = ["txt", "csv", "jsonl", "html", "pcapng", "log"];
+                // Firefox holds its place with an empty one.
                 path.extension().is_some_and(|it| ends.iter().any(|end| it == *end))
+                    && path.metadata().is_ok_and(|it| it.len() > 0)
             };
             if let Some(path) = found.into_iter().find(whole) {
                 return Ok(path);

@@ -6,7 +6,7 @@ use std::io::Write as _;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use page_tests::{DESKTOP, PHONE, Page, Result};
+use page_tests::{DESKTOP, PHONE, Page, Result, chromium_only};
 use serde_json::json;
 use thirtyfour::prelude::*;
 
@@ -265,6 +265,9 @@ async fn a_large_log_does_not_block_the_page() -> Result {
 #[tokio::test(flavor = "multi_thread")]
 #[ignore = "takes minutes: `cargo xtask test page twenty_large_logs --long`"]
 async fn twenty_large_logs_leave_nothing_behind() -> Result {
+    if chromium_only("no other one frees memory when it is asked to") {
+        return Ok(());
+    }
     const WARM: usize = 3;
     let folder = tempfile::tempdir()?;
     let text = log(200_000);

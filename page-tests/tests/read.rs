@@ -38,6 +38,7 @@ async fn a_pasted_telegram_is_read() -> Result {
 async fn a_failed_check_shows_what_may_have_happened() -> Result {
     let page = Page::open(DESKTOP, false).await?;
     page.paste(BROKEN).await?;
+    page.until(".causes li", "by chance").await?;
     let causes = page.texts(".causes li").await?;
     assert!(causes[0].contains("The manual prints it so in section 2.6.3"), "{causes:?}");
     assert!(causes[0].contains("1 in ") && causes[0].contains("by chance"), "the first is open: {causes:?}");

@@ -172,13 +172,15 @@ fn visible(rows: &[Row], is_open: impl Fn(&Row) -> Option<bool>) -> Vec<Row> {
 /// The rows of a telegram: its fields, and what the device's manual says in the place of bare registers.
 pub fn rows(detail: &Detail, bytes: &[u8]) -> Vec<Row> {
     let mut rows = Rows { rows: Vec::new(), blocks: &detail.device.blocks, bytes };
-    let asked = rows.blocks.iter().filter(|block| !has_values(block));
-    // What is only asked for has no bytes of its own.
-    for (index, block) in asked.enumerate() {
-        rows.rows.push(Row { id: format!("d{index}"), ..rows.of_block(block) });
-    }
     for (index, field) in detail.fields.iter().enumerate() {
         rows.add(field, &index.to_string(), 0);
+    }
+    // What is only asked for has no bytes of its own: it stands behind the address that names it.
+    let asked: Vec<_> = rows.blocks.iter().filter(|block| !has_values(block)).collect();
+    for (index, block) in asked.into_iter().enumerate().rev() {
+        let row = Row { id: format!("d{index}"), ..rows.of_block(block) };
+        let address = rows.rows.iter().position(|other| other.span == row.span);
+        rows.rows.insert(address.map_or(0, |at| at + 1), row);
     }
     rows.rows
 }

@@ -13,7 +13,7 @@ pub fn Structure(
     source: &'static str,
     layout: Vec<Row>,
 ) -> impl IntoView {
-    let rows: Vec<Row> = layout.into_iter().filter(|row| row.size != Size::Group).collect();
+    let rows: Vec<Row> = layout.into_iter().filter(|row| !row.size.is_around()).collect();
     let boxes: Vec<_> = rows
         .iter()
         .map(|row| {
@@ -39,7 +39,7 @@ fn number(row: &Row) -> String {
     match row.size {
         Size::Fixed(n) => n.to_string(),
         Size::Each(n) => format!("{n} × n"),
-        Size::Rest | Size::Group => "n".to_owned(),
+        Size::Rest | Size::Group | Size::List => "n".to_owned(),
     }
 }
 
@@ -49,7 +49,7 @@ fn Explained(row: Row) -> impl IntoView {
     let size = match row.size {
         Size::Fixed(n) => Message::bytes(n).to_string(),
         Size::Each(n) => format!("{} each", Message::bytes(n)),
-        Size::Rest | Size::Group => "all bytes up to the checksum".to_owned(),
+        Size::Rest | Size::Group | Size::List => "all bytes up to the checksum".to_owned(),
     };
     let offset = row.offset.map_or(String::new(), |offset| format!(", from byte {offset}"));
     let limits = spec.limits.map(|(from, to)| format!(" Allowed: {from} to {to}."));

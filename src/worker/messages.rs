@@ -284,6 +284,7 @@ pub struct Found {
 /// A device that the telegrams of a unit look like.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Proposed {
+    pub unit: Option<u8>,
     /// Its key.
     pub device: String,
     /// Why.
@@ -295,6 +296,7 @@ pub struct Proposed {
 impl Proposed {
     pub fn of(proposal: &Proposal) -> Self {
         Self {
+            unit: proposal.unit,
             device: proposal.device.key.to_owned(),
             text: proposal.text.sentence() + ".",
             bits: proposal.bits,

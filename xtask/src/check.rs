@@ -4,9 +4,10 @@ use std::path::Path;
 
 use crate::build::{self, Build};
 use crate::steps::{self, Result, Step};
+use crate::tools::Engine;
 use crate::{fuzz, page_tests, size, supply, tools};
 
-const STEPS: &[Step] = &[
+pub const STEPS: &[Step] = &[
     ("tools", tools),
     ("formatting", formatting),
     ("clippy", clippy),
@@ -22,8 +23,14 @@ const STEPS: &[Step] = &[
     ("the page in a browser", || page_tests::run(&[])),
 ];
 
-pub fn run() -> Result {
-    steps::run_all(STEPS)
+/// What `--browsers all` adds.
+pub const OTHER_BROWSERS: &[Step] = &[
+    ("the page in Firefox", || page_tests::run(&[page_tests::BROWSERS, "firefox"])),
+    ("the page in WebKit", || page_tests::run(&[page_tests::BROWSERS, "webkit"])),
+];
+
+pub fn run(steps: &[Step]) -> Result {
+    steps::run_all(steps)
 }
 
 /// First, since a missing tool should not show after minutes.
@@ -31,9 +38,9 @@ fn tools() -> Result {
     tools::wasm_target()?;
     tools::component("rustfmt")?;
     tools::component("clippy")?;
-    let browser = tools::browser()?;
+    let browser = tools::browser(Engine::Chromium)?;
     let axe = tools::axe()?;
-    println!("Browser: {}", browser.chromium.display());
+    println!("Browser: {}", browser.program.display());
     println!("Driver: {}", browser.driver.display());
     println!("Accessibility: {}", axe.display());
     Ok(())

@@ -29,10 +29,11 @@ Usage: cargo xtask <command>
   build [--dev]      compiles the page into dist/, ready for any static web server;
                      with --dev in a fraction of the time, and not optimized
   serve [--port N]   builds as with --dev, serves dist/ on this machine and rebuilds after each change
-  test               runs every check, from the formatting to the page in a browser
-  test page [NAME] [--long]
+  test [--browsers all]
+                     runs every check, from the formatting to the page in Chromium, or in all three engines
+  test page [NAME] [--long] [--browsers all | firefox,webkit]
                      only tests dist/ as it is in a browser, or those tests that are called so;
-                     with --long those that take minutes
+                     with --long those that take minutes, with --browsers in these
   fuzz SECONDS [--seed N] [--only TARGET] [--threads N]
                      tries random inputs against the library's laws; --replay FILE tries one again
   mutants [--of codecs|reader] [--sample N] [--seed S]
@@ -52,14 +53,17 @@ fn main() -> ExitCode {
         ["build"] => |_| build::run(Build::Release),
         ["build", "--dev"] => |_| build::run(Build::Dev),
         ["serve"] | ["serve", "--port", _] => watch::serve,
-        ["test"] => |_| check::run(),
+        ["test"] => |_| check::run(check::STEPS),
+        ["test", page_tests::BROWSERS, "all"] => {
+            |_| check::run(&[check::STEPS, check::OTHER_BROWSERS].concat())
+        }
         ["test", "page", ..] => return done(go_to_root().and_then(|()| page_tests::run(&words[2..]))),
         ["fuzz", ref arguments @ ..] => return done(go_to_root().and_then(|()| fuzz::run(arguments))),
         ["mutants", ref arguments @ ..] => return done(go_to_root().and_then(|()| mutants::run(arguments))),
         ["compare"] => |_| compare::run(),
         ["reproducible"] => |_| reproducible::check(),
-        // Started by `test` itself, see page_tests.rs.
-        [page_tests::KEEP_DRIVER, driver] => return page_tests::keep_driver(driver),
+        // Started by the tests themselves, see page_tests.rs.
+        [page_tests::KEEP, program] => return page_tests::keep(program),
         [command @ ("build" | "serve" | "test" | "compare" | "reproducible"), ..] => {
             return refuse(&format!("`{command}` is not followed by that."));
         }

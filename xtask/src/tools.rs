@@ -97,15 +97,54 @@ pub fn installed(name: &str, version: &str) -> Result<PathBuf> {
     }
 }
 
-/// A browser and the program that drives it.
-pub struct Browser {
-    pub chromium: PathBuf,
-    pub driver: PathBuf,
+/// What draws the page.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Engine {
+    Chromium,
+    Firefox,
+    Webkit,
 }
 
-/// Finds Chromium or Chrome and its driver, and installs them where they are missing.
-pub fn browser() -> Result<Browser> {
-    let find = || Some(Browser { chromium: find_chromium()?, driver: find_driver()? });
+impl Engine {
+    pub const ALL: [Self; 3] = [Self::Chromium, Self::Firefox, Self::Webkit];
+
+    pub const fn key(self) -> &'static str {
+        match self {
+            Self::Chromium => "chromium",
+            Self::Firefox => "firefox",
+            Self::Webkit => "webkit",
+        }
+    }
+
+    pub const fn label(self) -> &'static str {
+        match self {
+            Self::Chromium => "Chromium",
+            Self::Firefox => "Firefox",
+            Self::Webkit => "WebKit",
+        }
+    }
+}
+
+/// A browser and the program that drives it.
+pub struct Browser {
+    pub program: PathBuf,
+    pub driver: PathBuf,
+    /// A screen for it, where it needs one.
+    pub screen: Option<PathBuf>,
+}
+
+/// Finds a browser and its driver, and installs them where they are missing.
+pub fn browser(engine: Engine) -> Result<Browser> {
+    match engine {
+        Engine::Chromium => chromium(),
+        Engine::Firefox => firefox(),
+        Engine::Webkit => webkit(),
+    }
+}
+
+/// Chromium or Chrome.
+fn chromium() -> Result<Browser> {
+    let find = || Some(Browser { program: find_chromium()?, driver: find_driver()?, screen: None });
     if let Some(browser) = find() {
         return Ok(browser);
     }
@@ -123,6 +162,58 @@ pub fn browser() -> Result<Browser> {
             "{tried}The page tests need Chromium or Chrome, and chromedriver of the same version. \
              Install both, on the PATH or named by the variables BUSLENS_CHROMIUM and \
              BUSLENS_CHROMEDRIVER, then start this again."
+        )
+    })
+}
+
+/// Firefox. Its driver is a program from the registry of Rust where the system has none.
+fn firefox() -> Result<Browser> {
+    const GECKODRIVER: &str = "0.37.1";
+    let find = || on_path(&["firefox-esr", "firefox"]);
+    let mut tried = String::new();
+    if find().is_none() {
+        tried = install(
+            "Firefox",
+            &[("apt-get", &["firefox-esr"]), ("dnf", &["firefox"]), ("pacman", &["firefox"])],
+        );
+    }
+    let program = find().ok_or_else(|| {
+        format!("{tried}The page tests with `--browsers` need Firefox on the PATH: install it, then start this again.")
+    })?;
+    let driver = match on_path(&["geckodriver"]) {
+        Some(driver) => driver,
+        None => installed("geckodriver", GECKODRIVER)?,
+    };
+    Ok(Browser { program, driver, screen: None })
+}
+
+/// WebKit as GTK has it, in the browser that comes with it for tests.
+fn webkit() -> Result<Browser> {
+    let mini_browser = || {
+        let folders = ["/usr/lib", "/usr/libexec", "/usr/lib64"].into_iter().flat_map(|folder| {
+            let inner = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+            std::iter::once(PathBuf::from(folder)).chain(inner)
+        });
+        let mut files = folders.flat_map(|folder| {
+            ["webkit2gtk-4.1", "webkitgtk-6.0"].map(|name| folder.join(name).join("MiniBrowser"))
+        });
+        files.find(|file| file.is_file())
+    };
+    let find = || {
+        let (driver, screen) = (on_path(&["WebKitWebDriver"])?, on_path(&["Xvfb"])?);
+        Some(Browser { program: mini_browser()?, driver, screen: Some(screen) })
+    };
+    if let Some(browser) = find() {
+        return Ok(browser);
+    }
+    let tried = install(
+        "WebKit, its driver and a screen for it",
+        &[("apt-get", &["webkit2gtk-driver", "libwebkit2gtk-4.1-0", "xvfb"])],
+    );
+    find().ok_or_else(|| {
+        format!(
+            "{tried}The page tests in WebKit need WebKitWebDriver and Xvfb on the PATH, and WebKitGTK's \
+             MiniBrowser: Debian has them in webkit2gtk-driver, xvfb and libwebkit2gtk-4.1-0."
         )
     })
 }

@@ -34,6 +34,8 @@ mod oracle;
 mod posts;
 #[path = "profibus.rs"]
 mod profibus;
+#[path = "reference.rs"]
+mod reference;
 #[path = "registry.rs"]
 mod registry;
 #[path = "spans.rs"]

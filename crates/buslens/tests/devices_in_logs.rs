@@ -32,6 +32,23 @@ fn proposed(text: &str) -> Vec<(Option<u8>, &'static str, String)> {
     proposals(&report).into_iter().map(|it| (it.unit, it.device.key, it.text.to_string())).collect()
 }
 
+/// The reason is one, and a drive on PROFIBUS does not speak Modbus.
+#[test]
+fn what_is_proposed_has_a_reason() {
+    let own_functions = log(&[
+        "02 64 00 C8 00 04",
+        "02 64 10 69 0D 45 52 BB 22 D0 BB FA C9 BC 7F E4 6E 96 7C",
+        "02 65 00 C8 00 01 0C 69 47 7A",
+        "02 65 00 C8 00 01",
+    ]);
+    let said = proposed(&own_functions);
+    assert_eq!(said.len(), 1, "{said:?}");
+    assert_eq!(said[0].2, "unit 2 reads well as KEB COMBIVERT F5 on Modbus: 4 telegrams that only it knows");
+    // Its parameters have the same numbers on both.
+    let parameters = log(&["05 04 20 32 00 03", "05 04 06 22 28 E0 55 2B C0"]).repeat(3);
+    assert!(proposed(&parameters).iter().all(|it| it.1 != "keb-f5-profibus"), "{:?}", proposed(&parameters));
+}
+
 /// A recorder and a drive on one line, each in the words of its manual.
 #[test]
 fn units_are_read_as_their_own_devices() {

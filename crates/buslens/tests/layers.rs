@@ -17,7 +17,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("tool", &["field", "walk", "modbus", "profibus", "frame", "device", "text", "capture", "dialogue"]),
 ];
 
-/// What the page may use of the library.
+/// What the page, and the crate of tasks, may use of the library.
 const PAGE: &[&str] = &["field", "tool"];
 
 /// Crates that only the page may use.
@@ -45,15 +45,28 @@ fn layers_import_only_what_is_below_them() {
 }
 
 #[test]
-fn the_page_sees_tools_and_words_only() {
+fn the_page_and_the_tasks_see_tools_and_words_only() {
     let mut wrong = Vec::new();
-    for path in rust_files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../src")) {
-        let text = std::fs::read_to_string(&path).unwrap();
-        for used in imports(&text, "buslens::").filter(|used| !PAGE.contains(&used.as_str())) {
-            wrong.push(format!("{}: the page must not use {used}", path.display()));
+    for folder in ["../../src", "../trainer/src"] {
+        for path in rust_files(&Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)) {
+            let text = std::fs::read_to_string(&path).unwrap();
+            for used in imports(&text, "buslens::").filter(|used| !PAGE.contains(&used.as_str())) {
+                wrong.push(format!("{}: only the library itself may use {used}", path.display()));
+            }
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn the_tasks_know_nothing_of_the_page() {
+    for path in rust_files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../trainer/src")) {
+        let text = std::fs::read_to_string(&path).unwrap();
+        for name in PAGE_CRATES {
+            let used = code(&text).any(|line| line.contains(&format!("{name}::")));
+            assert!(!used, "{}: only the page may use {name}", path.display());
+        }
+    }
 }
 
 #[test]

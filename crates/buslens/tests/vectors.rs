@@ -4,7 +4,8 @@
 //! and `check`, the codes of its `problems`, if it has some, and its `protocol`, if that is not
 //! Modbus RTU. `before` has telegrams that came before it on the line, parted by `|`; `device` names
 //! the device whose table is to be used, `as` a protocol that a person chooses because the bytes do
-//! not tell it. Behind `---` stands what Buslens makes of it; `BLESS=1 cargo test --test vectors`
+//! not tell it. `gallery: yes` shows it in Learn, as everything is that a manual prints; `slip` and `right` say what
+//! is wrong in print, and how it should be, where the device's table does not. Behind `---` stands what Buslens makes of it; `BLESS=1 cargo test --test vectors`
 //! rewrites that part, and only that part.
 
 use std::collections::BTreeSet;

@@ -10,6 +10,7 @@ mod link;
 mod log;
 mod long;
 mod out;
+mod practice;
 mod report;
 mod sentence;
 mod settings;
@@ -59,4 +60,5 @@ pub static TARGETS: &[&Target] = &[
     &report::TARGET,
     &out::TARGET,
     &setup::TARGET,
+    &practice::TARGET,
 ];

@@ -7,7 +7,9 @@ mod steps;
 
 use std::time::Duration;
 
+use leptos::ev::MouseEvent;
 use leptos::prelude::*;
+use web_sys::HtmlInputElement;
 
 use crate::components::copy_button::CopyButton;
 use crate::components::icon::{Glyph, Icon};
@@ -115,6 +117,14 @@ fn Input() -> impl IntoView {
         let own = check.kind;
         view! { <option value=own prop:selected=move || kind.get() == own>{title(own)}</option> }
     };
+    // Who comes with bytes of his own types or pastes them in place of the example. The next click is for a byte
+    // of it.
+    let comes = StoredValue::new(false);
+    let click = move |event: MouseEvent| {
+        if comes.try_update_value(std::mem::take) == Some(true) && state.is_example() {
+            event_target::<HtmlInputElement>(&event).select();
+        }
+    };
     view! {
         <section class="bar" aria-label="Input">
             <label class="entry">
@@ -125,6 +135,8 @@ fn Input() -> impl IntoView {
                     spellcheck="false"
                     aria-invalid=move || work.with(|work| work.nonsense).to_string()
                     prop:value=move || state.text()
+                    on:focus=move |_| comes.set_value(true)
+                    on:click=click
                     on:input=move |event| state.enter(event_target_value(&event))
                 />
             </label>

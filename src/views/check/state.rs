@@ -143,6 +143,11 @@ impl CheckState {
         self.text.get()
     }
 
+    /// Whether nobody typed yet.
+    pub fn is_example(&self) -> bool {
+        self.text.with_untracked(|text| text == EXAMPLE)
+    }
+
     pub fn work(&self) -> Memo<Work> {
         self.work
     }

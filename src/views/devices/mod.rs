@@ -87,6 +87,21 @@ pub fn Borrowed() -> impl IntoView {
     }
 }
 
+/// Takes a row out of a table.
+#[component]
+fn Remove(what: String, on_remove: Callback<()>) -> impl IntoView {
+    view! {
+        <button
+            type="button"
+            class="button plain low icon-only"
+            aria-label=format!("Remove {what}")
+            on:click=move |_| on_remove.run(())
+        >
+            <Icon glyph=Glyph::Close />
+        </button>
+    }
+}
+
 /// Some entries of the settings as a form.
 #[component]
 fn Entries(only: &'static [&'static str]) -> impl IntoView {

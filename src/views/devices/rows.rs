@@ -2,10 +2,10 @@
 
 use leptos::prelude::*;
 
+use super::Remove;
 use super::state::DeviceSettings;
 use crate::components::combobox::Combobox;
 use crate::components::form::Edit;
-use crate::components::icon::{Glyph, Icon};
 use buslens::field::{hex, hex_value};
 use buslens::tool::Content;
 use buslens::tool::setup::{self, List, Parameter, Row};
@@ -124,14 +124,7 @@ fn TableRow(list: List, index: usize, row: Row, mapping: bool) -> impl IntoView 
             </td>
             <td class="raw mono">{raw}</td>
             <td>
-                <button
-                    type="button"
-                    class="button plain low icon-only"
-                    aria-label=format!("Remove {spoken}")
-                    on:click=move |_| state.remove_row(list, index)
-                >
-                    <Icon glyph=Glyph::Close />
-                </button>
+                <Remove what=spoken on_remove=Callback::new(move |()| state.remove_row(list, index)) />
             </td>
         </tr>
     }

@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 
 use leptos::prelude::*;
 
+use super::Remove;
 use super::state::DeviceSettings;
-use crate::components::icon::{Glyph, Icon};
 use crate::views::read::{Mode, ReadState};
+use crate::worker::messages::Proposed;
 use buslens::field::many;
 use buslens::tool::{PROFILES, Profile, proposals};
 
@@ -27,11 +28,12 @@ pub fn Units() -> impl IntoView {
     let state = expect_context::<DeviceSettings>();
     let read = expect_context::<ReadState>();
     let proposed = Memo::new(move |_| {
-        if read.mode() != Mode::Telegrams {
-            return BTreeMap::new();
-        }
-        let found = proposals(&read.report()).into_iter();
-        let found = found.filter_map(|it| Some((it.unit?, (it.device.key, it.text.sentence() + "."))));
+        let found = match read.mode() {
+            Mode::Log => read.log.proposals.get(),
+            _ => proposals(&read.report()).iter().map(Proposed::of).collect(),
+        };
+        let found =
+            found.into_iter().filter_map(|it| Some((it.unit?, (Profile::of(&it.device)?.key, it.text))));
         found.collect::<BTreeMap<_, _>>()
     });
     let rows = Memo::new(move |_| {
@@ -99,7 +101,7 @@ pub fn Units() -> impl IntoView {
                                 disabled=move || number(&typed.get()).is_none()
                                 on:change=move |event| add(event_target_value(&event))
                             >
-                                <option value="" prop:selected=move || { typed.track(); true }>"choose ..."</option>
+                                <option value="" prop:selected=move || { typed.track(); true }>"choose …"</option>
                                 {devices(|_| false)}
                             </select>
                         </td>
@@ -165,16 +167,8 @@ fn UnitRow(row: Row) -> impl IntoView {
             <td>
                 {named
                     .map(|_| {
-                        view! {
-                            <button
-                                type="button"
-                                class="button plain low icon-only"
-                                aria-label=format!("Forget unit {unit}")
-                                on:click=move |_| state.name_unit(unit, None)
-                            >
-                                <Icon glyph=Glyph::Close />
-                            </button>
-                        }
+                        let forget = Callback::new(move |()| state.name_unit(unit, None));
+                        view! { <Remove what=format!("unit {unit}") on_remove=forget /> }
                     })}
             </td>
         </tr>

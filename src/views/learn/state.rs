@@ -18,7 +18,7 @@ impl Part {
     pub const ALL: [Self; 4] = [Self::Lessons, Self::Practice, Self::Gallery, Self::Reference];
 
     /// What it is called in links.
-    const fn key(self) -> &'static str {
+    pub const fn key(self) -> &'static str {
         match self {
             Self::Lessons => "lessons",
             Self::Practice => "practice",
@@ -75,6 +75,12 @@ impl LearnState {
     pub fn go_to(self, part: Part, place: String) {
         self.places[part as usize].set(place);
         self.address.chosen();
+    }
+
+    /// Somebody types there: the address follows at the next pause.
+    pub fn type_to(self, part: Part, place: String) {
+        self.places[part as usize].set(place);
+        self.address.typed();
     }
 
     pub fn link(&self) -> Link {

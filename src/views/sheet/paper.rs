@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use leptos::prelude::*;
-use web_sys::js_sys::Date;
+use web_sys::js_sys::{Date, Object, Reflect};
 
 use super::SpelledOut;
 use crate::components::byte_strip::{blocks, role_class};
@@ -87,9 +87,14 @@ pub fn Paper(
     }
 }
 
-/// Date and time as the person writes them.
+/// Date and time as the person writes them, with the name of the month: 3/4 is two days.
 fn today() -> String {
-    Date::new_0().to_locale_string("default", &leptos::wasm_bindgen::JsValue::UNDEFINED).into()
+    let style = Object::new();
+    for (what, how) in [("dateStyle", "long"), ("timeStyle", "short")] {
+        // A plain object takes every key.
+        let _ = Reflect::set(&style, &what.into(), &how.into());
+    }
+    Date::new_0().to_locale_string("default", &style).into()
 }
 
 fn is_wrong(report: &Report, index: usize) -> bool {

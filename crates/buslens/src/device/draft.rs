@@ -24,27 +24,24 @@ pub enum Target {
 impl Profile {
     /// Everything that its table says can be asked of the device.
     pub fn tasks(&'static self) -> Vec<Task> {
-        let areas = self.areas.iter().map(|area| (Target::Area(area), area.access));
-        let parameters = self.parameters().map(|it| (Target::Parameter(it), it.access));
-        let mut tasks = Vec::new();
-        // Where everything has a name of its own, the rest is nothing to ask for.
-        let nameless = |target: &Target| matches!(target, Target::Area(area) if area.listed);
-        // What can have one value only is nothing to write.
-        let fixed = |target: &Target| match target {
-            Target::Parameter(parameter) => parameter.spec.limits.is_some_and(|(least, most)| least == most),
-            Target::Area(_) => false,
-        };
-        for (target, allowed) in areas.chain(parameters).filter(|(target, _)| !nameless(target)) {
-            for access in [Access::Read, Access::Write] {
-                if access == Access::Write && fixed(&target) {
-                    continue;
-                }
-                if allowed == access || allowed == Access::ReadWrite {
-                    tasks.push(Task { profile: self, target, access });
-                }
+        let targets = self.areas.iter().map(Target::Area).chain(self.parameters().map(Target::Parameter));
+        let both = |target| [Access::Read, Access::Write].map(|access| self.task(target, access));
+        targets.flat_map(both).flatten().collect()
+    }
+
+    /// What is asked of one of its targets, where its table says that it can be.
+    pub fn task(&'static self, target: Target, access: Access) -> Option<Task> {
+        let (allowed, can_be_asked, fixed) = match target {
+            // Where everything has a name of its own, the rest is nothing to ask for.
+            Target::Area(area) => (area.access, !area.listed, false),
+            // What can have one value only is nothing to write.
+            Target::Parameter(Parameter { access, spec, .. }) => {
+                (*access, true, spec.limits.is_some_and(|(least, most)| least == most))
             }
-        }
-        tasks
+        };
+        let may = allowed == access || allowed == Access::ReadWrite;
+        let may = may && can_be_asked && !(fixed && access == Access::Write);
+        may.then_some(Task { profile: self, target, access })
     }
 }
 
@@ -362,5 +359,5 @@ static HANDSHAKE: Spec = Spec::new("handshake", "Handshake")
 
 static CONTENT: Spec = Spec::new("content", "Content").note("What is written.");
 
-static MORE: Spec = Spec::new("more", "Further ones")
-    .note("What is written to those behind the first, in the same telegram.");
+static MORE: Spec =
+    Spec::new("more", "More in the same telegram").note("What those that follow the first are set to.");

@@ -247,7 +247,7 @@ fn cut(bytes: &[u8], splitter: &Splitter, waiting: Option<Waiting>) -> Option<Re
         let (quantity, width) =
             (u32::from(u16::from_be_bytes([*high, *low])), if code == 101 { 4 } else { 2 });
         let counts = u32::from(*count) == if code == 15 { quantity.div_ceil(8) } else { quantity * width };
-        let missing = request.checked_sub(bytes.len()).filter(|missing| counts && *missing > 0)?;
+        let missing = request.checked_sub(bytes.len()).filter(|_| counts)?;
         let bits = unit(first) + function(code) + 8 + CUT;
         return is_cut(bytes, missing, false).then(|| without_check(0, bits, true));
     }
@@ -256,7 +256,7 @@ fn cut(bytes: &[u8], splitter: &Splitter, waiting: Option<Waiting>) -> Option<Re
         return None;
     }
     let even = count % 2 == 0 || matches!(code, 1 | 2);
-    let missing = response?.checked_sub(bytes.len()).filter(|missing| *missing > 0)?;
+    let missing = response?.checked_sub(bytes.len())?;
     if code & EXCEPTION != 0 || !even || count == 0 || count > 250 || !matches!(code, 1..=4 | 23 | 100) {
         return None;
     }

@@ -156,6 +156,9 @@ pub fn service(address: &[u8]) -> Option<u64> {
 
 /// Whether a word names a serial port.
 pub fn is_port(word: &[u8]) -> bool {
+    if !matches!(word, [b'c' | b'C' | b't' | b'T', .., last] if is_digit(*last)) {
+        return false;
+    }
     let numbered = |prefix: &[u8]| {
         word.len() > prefix.len()
             && word[..prefix.len()].eq_ignore_ascii_case(prefix)
@@ -167,9 +170,12 @@ pub fn is_port(word: &[u8]) -> bool {
 /// The number whose digits begin at `at`, and where they end.
 pub fn digits(line: &[u8], at: usize) -> Option<(u64, usize)> {
     const MOST: usize = 15;
-    let count = line.get(at..)?.iter().take(MOST + 1).take_while(|c| is_digit(**c)).count();
-    let value = line[at..at + count].iter().fold(0, |sum, c| sum * 10 + u64::from(c - b'0'));
-    (1..=MOST).contains(&count).then_some((value, at + count))
+    let (mut value, mut to) = (0, at);
+    while let Some(c) = line.get(to).filter(|c| is_digit(**c) && to - at <= MOST) {
+        value = value * 10 + u64::from(c - b'0');
+        to += 1;
+    }
+    (1..=MOST).contains(&(to - at)).then_some((value, to))
 }
 
 pub fn is_digit(c: u8) -> bool {
@@ -182,14 +188,54 @@ pub fn is_word(c: u8) -> bool {
     c.is_ascii_alphanumeric() || (0xC3..=0xC9).contains(&c)
 }
 
-/// Where the word that begins at `at` ends.
-pub fn word_end(line: &[u8], mut at: usize) -> usize {
+/// What a character can be, in bits.
+static CLASSES: [u8; 256] = {
+    let mut classes = [0; 256];
+    let mut c = 0;
+    while c < 128 {
+        let character = c as u8;
+        classes[c] = if character.is_ascii_digit() { DIGIT } else { 0 }
+            | if character.is_ascii_hexdigit() { HEX } else { 0 }
+            | if character.is_ascii_alphanumeric() { WORD } else { 0 };
+        c += 1;
+    }
+    classes
+};
+pub const DIGIT: u8 = 1;
+pub const HEX: u8 = 2;
+const WORD: u8 = 4;
+
+/// Letters and digits that stand together.
+#[derive(Clone, Copy, Debug)]
+pub struct Word {
+    /// Where it ends.
+    pub to: usize,
+    /// What all of its characters are, and what some of them are: [`DIGIT`], [`HEX`].
+    pub all: u8,
+    pub any: u8,
+}
+
+/// The word that begins at `at`; it may be empty.
+pub fn word(line: &[u8], at: usize) -> Word {
+    let mut word = Word { to: at, all: DIGIT | HEX, any: 0 };
     loop {
-        at += match line.get(at..).unwrap_or_default() {
-            [c, ..] if c.is_ascii_alphanumeric() => 1,
-            [0xC3..=0xC9, 0x80..0xC0, ..] => 2,
-            _ => return at,
-        };
+        let rest = line.get(word.to..).unwrap_or_default();
+        let class = rest.first().map_or(0, |c| CLASSES[usize::from(*c)]);
+        if class == 0 && !begins_word(rest) {
+            return word;
+        }
+        word.to += if class == 0 { 2 } else { 1 };
+        word.all &= class;
+        word.any |= class;
+    }
+}
+
+/// Whether a text begins with a letter or digit. One of Latin alphabets has two bytes, and may be cut.
+pub fn begins_word(text: &[u8]) -> bool {
+    match text {
+        [0xC3..=0xC9, next, ..] => (0x80..0xC0).contains(next),
+        [c, ..] => c.is_ascii_alphanumeric(),
+        [] => false,
     }
 }
 

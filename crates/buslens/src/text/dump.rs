@@ -1,7 +1,9 @@
 //! Rows of hex dumps: xxd, `hexdump -C`, od, Wireshark. An offset, bytes, and often the same bytes
 //! as characters.
 
+use super::characters::DIGITS;
 use super::words::Sender;
+use crate::field::Span;
 
 /// Follows the offsets from row to row. A dump of a conversation counts those of each side by themselves, and
 /// something before the offset tells the two apart: `TX 0010:`, or only how far the row is indented.
@@ -48,59 +50,22 @@ impl Dump {
     /// The row that a line is, if it is one. Before its offset there may be a time, an arrow, a bar, the
     /// sign of a comment.
     pub fn row(&self, line: &[u8]) -> Option<Row> {
-        /// Offsets stand near the beginning.
-        const FAR: usize = 80;
-        let first = line.iter().take_while(|c| MARKS[usize::from(**c)]).count();
-        let near = &line[..line.len().min(FAR)];
-        let begins = |at: &usize| MARKS[usize::from(near[at - 1])] && begins_offset(&line[*at..]);
-        let others = (first + 1..near.len()).filter(begins);
-        let alone = begins_offset(&line[first..]).then(|| self.row_at(line, first, true)).flatten();
-        alone.or_else(|| others.into_iter().find_map(|at| self.row_at(line, at, false)))
+        offsets(line).find_map(|offset| self.row_at(line, offset))
     }
 
-    /// The same with the offset at `start`; where other things are before it, it must be marked and fit.
-    fn row_at(&self, line: &[u8], start: usize, alone: bool) -> Option<Row> {
-        /// So many digits have the offsets of most dumps.
-        const USUAL: usize = 8;
-        // tcpdump marks its offsets.
-        let start = start + if line[start..].starts_with(b"0x") { 2 } else { 0 };
-        let count = line[start..].iter().take_while(|c| c.is_ascii_hexdigit()).count();
-        if !(4..=16).contains(&count) {
-            return None;
-        }
-        let end = start + count;
-        let blanks = |at: usize| {
-            line.get(at..).unwrap_or_default().iter().take_while(|c| matches!(c, b' ' | b'\t')).count()
-        };
-        let bar = line.get(end + blanks(end)) == Some(&b'|');
-        let colon = line.get(end) == Some(&b':') || bar;
-        let from = end + if bar { blanks(end) } else { 0 } + usize::from(colon);
-        // od parts its offset, seven digits, with one blank only.
-        let od = count == 7 && !colon && blanks(from) == 1;
-        let parted =
-            (colon && blanks(from) > 0) || (alone && od) || ((alone || count == USUAL) && blanks(from) > 1);
-        if !parted || !line.get(from + blanks(from)).is_some_and(u8::is_ascii_hexdigit) {
-            return None;
-        }
+    /// The same with what may be its offset, whose value has to fit.
+    fn row_at(&self, line: &[u8], Offset { place, from, first, alone, colon, od }: Offset) -> Option<Row> {
         // Most dumps count in hex, od in octal.
-        let digits = std::str::from_utf8(&line[start..end]).ok()?;
+        let digits = std::str::from_utf8(place.of(line)).ok()?;
         let values = [16, 10, 8].map(|radix| usize::from_str_radix(digits, radix).ok());
-        let offset = values[0]?;
-        let first = &line[from + blanks(from)..];
-        let length = first.iter().take_while(|c| c.is_ascii_alphanumeric()).count();
-        // Bytes are parted by blanks: what goes on with a dot or a colon is a date or a time.
-        if !first.get(length).is_none_or(|c| c.is_ascii_whitespace() || matches!(c, b'-' | b'|')) {
-            return None;
-        }
-        // What is longer is no byte or word of a row, so that what stands before it is no offset.
-        let first = first.get(..length).filter(|first| first.len() <= 8)?;
+        let (offset, first) = (values[0]?, first.of(line));
         let octal = od && matches!(first.len(), 3 | 6) && first.iter().all(|c| (b'0'..=b'7').contains(c));
         let words = match od {
             _ if octal => Words::Octal,
             true => Words::LowFirst,
             false => Words::InOrder,
         };
-        let before = outline(&line[..start]);
+        let before = outline(&line[..place.from]);
         // A row that goes on may be indented in another way.
         let latest = self.streams.get(self.latest);
         let stream = match self.streams.iter().position(|stream| stream.before == before) {
@@ -174,6 +139,92 @@ static MARKS: [bool; 256] = {
 fn begins_offset(text: &[u8]) -> bool {
     let digits = text.strip_prefix(b"0x").unwrap_or(text);
     digits.first_chunk::<4>().is_some_and(|digits| digits.iter().all(u8::is_ascii_hexdigit))
+}
+
+/// What may be the offset of a row, by how it stands in the line.
+#[derive(Clone, Copy, Debug)]
+struct Offset {
+    /// Its digits.
+    place: Span,
+    /// Where the bytes begin behind it, and the first of them.
+    from: usize,
+    first: Span,
+    /// Nothing is before it.
+    alone: bool,
+    /// A colon or a bar parts it from the bytes.
+    colon: bool,
+    /// It has the form of those of od.
+    od: bool,
+}
+
+/// Whether a number of a line stands as the offset of a row does, whatever its value is.
+pub fn has_offset(line: &[u8]) -> bool {
+    offsets(line).next().is_some()
+}
+
+/// The numbers of a line that stand as offsets do.
+fn offsets(line: &[u8]) -> impl Iterator<Item = Offset> {
+    let first = line.iter().take_while(|c| MARKS[usize::from(**c)]).count();
+    let alone = begins_offset(&line[first..]).then_some(first);
+    let mut at = first + 1;
+    let others = std::iter::from_fn(move || {
+        let found = next_number(line, at)?;
+        at = found + 1;
+        Some(found)
+    });
+    alone.into_iter().chain(others).filter_map(move |start| offset_at(line, start, start == first))
+}
+
+/// Where the next offset may begin, from `at` on: behind a mark. Most places are passed by fours: where one of the
+/// four digits would be is none.
+fn next_number(line: &[u8], mut at: usize) -> Option<usize> {
+    /// Offsets stand near the beginning.
+    const FAR: usize = 80;
+    while at < FAR {
+        let digits: &[u8; 4] = line.get(at..)?.first_chunk()?;
+        let other = |place: &usize| DIGITS[usize::from(digits[*place])] > 15;
+        match (0..digits.len()).rev().find(other) {
+            // An x may be the second one: `0x0010`.
+            Some(place @ 2..) if digits[place] == b'x' => at += place - 1,
+            Some(place) if place != 1 || digits[place] != b'x' => at += place + 1,
+            _ if MARKS[usize::from(line[at - 1])] && begins_offset(&line[at..]) => return Some(at),
+            _ => at += 1,
+        }
+    }
+    None
+}
+
+/// The offset whose digits begin at `start`; where other things are before it, it must be marked.
+fn offset_at(line: &[u8], start: usize, alone: bool) -> Option<Offset> {
+    /// So many digits have the offsets of most dumps.
+    const USUAL: usize = 8;
+    // tcpdump marks its offsets.
+    let start = start + if line[start..].starts_with(b"0x") { 2 } else { 0 };
+    let count = line[start..].iter().take_while(|c| c.is_ascii_hexdigit()).count();
+    if !(4..=16).contains(&count) {
+        return None;
+    }
+    let end = start + count;
+    let blanks = |at: usize| {
+        line.get(at..).unwrap_or_default().iter().take_while(|c| matches!(c, b' ' | b'\t')).count()
+    };
+    let bar = line.get(end + blanks(end)) == Some(&b'|');
+    let colon = line.get(end) == Some(&b':') || bar;
+    let from = end + if bar { blanks(end) } else { 0 } + usize::from(colon);
+    // od parts its offset, seven digits, with one blank only.
+    let od = count == 7 && !colon && blanks(from) == 1;
+    let parted =
+        (colon && blanks(from) > 0) || (alone && od) || ((alone || count == USUAL) && blanks(from) > 1);
+    if !parted || !line.get(from + blanks(from)).is_some_and(u8::is_ascii_hexdigit) {
+        return None;
+    }
+    let begins = from + blanks(from);
+    let length = line[begins..].iter().take_while(|c| c.is_ascii_alphanumeric()).count();
+    let first = Span::new(begins, begins + length);
+    // Bytes are parted by blanks: what goes on with a dot or a colon is a date or a time.
+    let bytes = line.get(first.to).is_none_or(|c| c.is_ascii_whitespace() || matches!(c, b'-' | b'|'));
+    // What is longer is no byte or word of a row, so that what stands before it is no offset.
+    (bytes && length <= 8).then_some(Offset { place: Span::new(start, end), from, first, alone, colon, od })
 }
 
 /// A number for what stands before an offset: the same for the same letters and blanks, whatever digits are among

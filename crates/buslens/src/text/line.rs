@@ -2,119 +2,26 @@
 //!
 //! A run is numbers that follow each other with hardly more than marks between them. Where these marks
 //! change within it (`7B 04'00 C8`, `8: 01 03`), it has a break: whether it is one telegram or a part of it
-//! is, the evidence decides.
+//! is, the evidence decides. `number` says how a number is written, `run` how numbers follow each other.
+
+mod alike;
+mod number;
+mod run;
 
 use super::characters::{
-    DIGITS, ESCAPE, address, blank_character, character, decimal, digits, escape_sequence, fills_cell,
-    hex_value, is_bits, is_digit, is_port, is_word, separator, service, wide, word_end, word_of,
+    ESCAPE, address, begins_word, blank_character, decimal, digits, escape_sequence, hex_value, is_digit,
+    is_port, service, wide, word, word_of,
 };
 use super::time;
 use super::words::{self, About, Sender, Weight};
 use crate::field::{Direction, Span};
-
-/// How bytes without a mark of their own are written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Numbers {
-    Hex,
-    Decimal,
-}
-
-/// How bytes are written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Style {
-    /// `01 03`, with any separator.
-    Separated,
-    /// `0103`.
-    Contiguous,
-    /// `0x01`, `$01`.
-    Prefixed,
-    /// `01h`.
-    Suffixed,
-    /// `\x01`.
-    Escaped,
-}
-
-impl Style {
-    pub const ALL: [Self; 5] =
-        [Self::Separated, Self::Contiguous, Self::Prefixed, Self::Suffixed, Self::Escaped];
-
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Separated => "separate hex bytes",
-            Self::Contiguous => "hex digits without spaces",
-            Self::Prefixed => "hex numbers with a prefix",
-            Self::Suffixed => "hex bytes with an h",
-            Self::Escaped => "an escaped string",
-        }
-    }
-}
-
-/// Bytes that follow each other with only marks between them.
-#[derive(Clone, Copy, Debug)]
-pub struct Run {
-    /// Its bytes in [`Scan::hex`], [`Scan::decimal`] and [`Scan::places`].
-    pub first: usize,
-    pub end: usize,
-    /// Its place in the line.
-    pub span: Span,
-    /// All its numbers can be hex.
-    pub hex: bool,
-    /// All its numbers can be decimal, and none is more than 255.
-    pub decimal: bool,
-    /// Written as `0x01`, `\x01` or `01h`: certainly bytes.
-    pub marked: bool,
-    pub style: Style,
-    /// One run of digits behind a colon, as Modbus ASCII has it.
-    pub colon: bool,
-    /// Who speaks, by what stands before it.
-    pub sender: Option<(Sender, Weight)>,
-    /// No other word is between the one that says who speaks and the run.
-    pub said: bool,
-    /// The word before it, as [`word_of`] makes it a number.
-    pub word: u32,
-    /// Its breaks in [`Scan::breaks`].
-    pub breaks: Span,
-    tokens: usize,
-    /// Where the last token's bytes begin.
-    last: usize,
-    /// How many tokens there are since the last break.
-    since: usize,
-    /// It has a byte of one digit without a zero before it, and one with a zero.
-    single: bool,
-    padded: bool,
-    /// Where the second token's bytes begin, counted from the last break.
-    second: usize,
-    /// The same in the line.
-    second_at: usize,
-    separator: u8,
-    /// How wide the first separator is.
-    gap: usize,
-}
-
-impl Run {
-    /// How many bytes it has.
-    pub fn len(&self) -> usize {
-        self.end - self.first
-    }
-
-    /// How many numbers they are written as.
-    pub fn tokens(&self) -> usize {
-        self.tokens
-    }
-
-    /// Whether commas stand between its numbers.
-    pub fn is_list(&self) -> bool {
-        self.tokens > 1 && self.separator == b','
-    }
-
-    /// What stands between its bytes, `otherwise` where it has only one number so far.
-    fn separator_or(&self, otherwise: u8) -> u8 {
-        if self.since < 2 { otherwise } else { self.separator }
-    }
-}
+pub use alike::Alike;
+use number::Token;
+use run::PLAIN;
+pub use run::{Numbers, Run, Style};
 
 /// What was found in a line. It is used for line after line, so that none allocates.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Scan {
     pub hex: Vec<u8>,
     pub decimal: Vec<u8>,
@@ -140,23 +47,26 @@ pub struct Scan {
     /// What tells several lines or connections apart: `COM8`, `ttyUSB0`, or the addresses of both ends,
     /// the client's first, whoever speaks. Empty where none is said.
     pub port: Vec<u8>,
+    /// Where the time stands.
+    time_place: Option<Span>,
     /// The addresses in the line.
     ends: [Option<Span>; 2],
     /// The last word that says who speaks is an arrow, and it points back.
     arrow: Option<bool>,
-    open: Option<Run>,
+    /// The last run goes on, if the next number fits.
+    is_open: bool,
     /// The words that say who speaks, since the last run: the last strong one and the last weak one.
     strong: Option<Sender>,
     weak: Option<Sender>,
     words_since: usize,
-    /// The last word, see [`word_of`].
-    last_word: u32,
+    /// The last word.
+    last_word: Option<Span>,
     /// No quote of this kind comes behind this place any more: `'`, `"`.
     unclosed: [bool; 2],
     /// What comes first in the line was read already: here are bytes.
     in_row: bool,
-    /// Decimal numbers are not asked for.
-    hex_only: bool,
+    /// How bytes are written, if that is known.
+    numbers: Option<Numbers>,
     /// Any number with a fraction is a time in units of so many microseconds.
     time_unit: Option<i64>,
 }
@@ -169,32 +79,6 @@ pub struct Start {
     pub in_row: bool,
 }
 
-/// What a token's digits are.
-enum Token {
-    /// Bytes were added: all can be hex, all can be decimal, they are marked as bytes.
-    Bytes(Kind),
-    Word,
-}
-
-/// What bytes of a token are.
-#[derive(Clone, Copy, Debug)]
-struct Kind {
-    /// They can be hex.
-    hex: bool,
-    /// They can be decimal.
-    decimal: bool,
-    marked: bool,
-    style: Style,
-}
-
-/// Hex digits without a mark.
-const PLAIN: Kind = Kind { hex: true, decimal: false, marked: false, style: Style::Separated };
-
-/// Bytes that are certainly hex.
-const fn marked(style: Style) -> Kind {
-    Kind { hex: true, decimal: false, marked: true, style }
-}
-
 impl Scan {
     /// For times that are plain numbers of units of so many microseconds.
     pub fn timed(time_unit: Option<i64>) -> Self {
@@ -204,13 +88,12 @@ impl Scan {
     /// Reads what of `line` was not read yet. `numbers` says how bytes are written, if that is known.
     pub fn read(&mut self, line: &[u8], Start { from, in_row }: Start, numbers: Option<Numbers>) {
         self.clear();
-        self.hex_only = numbers == Some(Numbers::Hex);
-        self.in_row = in_row;
+        (self.numbers, self.in_row) = (numbers, in_row);
         let mut at = from;
         let first =
             line[from.min(line.len())..].iter().take_while(|c| c.is_ascii_whitespace()).count() + from;
-        while at < line.len() {
-            at = self.same_again(line, at, numbers);
+        loop {
+            at = self.same_again(line, at);
             let Some(c) = line.get(at).copied() else { break };
             at = match c {
                 b'\\' => self.escape(line, at),
@@ -223,26 +106,23 @@ impl Scan {
                         to
                     }
                     None if at == first && matches!(c, b'<' | b'>') => self.points(line, at),
-                    None if c == b'-' && self.is_negative(line, at) => self.negative(line, at),
+                    None if c == b'-' && Self::is_negative(line, at) => self.negative(line, at),
                     None => at + 1,
                 },
                 b'&' if matches!(line.get(at + 1), Some(b'H' | b'h')) => self.of_basic(line, at),
                 ESCAPE => at + escape_sequence(&line[at..]).max(1),
                 b'S' | b'E' if at == first && self.runs.is_empty() => {
-                    self.label(line, at).unwrap_or_else(|| self.word(line, at, numbers))
+                    self.label(line, at).unwrap_or_else(|| self.word(line, at))
                 }
-                // A letter can be cut, or its first byte one of another kind.
-                _ if is_word(c) && word_end(line, at) > at => self.word(line, at, numbers),
+                _ if begins_word(&line[at..]) => self.word(line, at),
                 0x80.. => self.sign(line, at),
-                b' ' | b'\t' | b'|' => {
-                    match self.open.as_ref().is_some_and(|run| self.is_column(line, run)) {
-                        true => {
-                            self.column = true;
-                            break;
-                        }
-                        false => at + line[at..].iter().take_while(|other| **other == c).count(),
+                b' ' | b'\t' | b'|' => match self.open().is_some_and(|run| self.is_column(line, run)) {
+                    true => {
+                        self.column = true;
+                        break;
                     }
-                }
+                    false => at + line[at..].iter().take_while(|other| **other == c).count(),
+                },
                 _ => at + 1,
             };
         }
@@ -251,7 +131,7 @@ impl Scan {
 
     /// `>` or `<` at the beginning of a line, unless it is a bracket around a byte or around all: `<01><03>`.
     fn points(&mut self, line: &[u8], at: usize) -> usize {
-        let word = word_end(line, at + 1);
+        let word = word(line, at + 1).to;
         let around = line[at] == b'<' && line.trim_ascii_end().ends_with(b">");
         if line.get(word) != Some(&b'>') && !around {
             let sender = if line[at] == b'>' { Sender::Logger } else { Sender::Other };
@@ -295,11 +175,8 @@ impl Scan {
     fn drop_counted(&mut self, line: &[u8], at: usize) {
         let ideograph = (0xE4..=0xE9).contains(&line[at]);
         let counts = |run: &Run| run.tokens == 1 && run.decimal && !run.padded && run.span.to == at;
-        if let Some(run) = self.open.take_if(|run| ideograph && counts(run)) {
-            for numbers in [&mut self.hex, &mut self.decimal] {
-                numbers.truncate(run.first);
-            }
-            self.places.truncate(run.first);
+        if ideograph && self.open().is_some_and(counts) {
+            self.drop_open();
             self.stranger();
         }
     }
@@ -310,149 +187,12 @@ impl Scan {
         self.places.clear();
         self.runs.clear();
         self.port.clear();
-        (self.time, self.sender, self.both, self.open) = (None, None, false, None);
-        (self.ends, self.arrow) = ([None; 2], None);
+        (self.time, self.sender, self.both, self.is_open) = (None, None, false, false);
+        (self.ends, self.arrow, self.time_place) = ([None; 2], None, None);
         (self.strong, self.weak, self.words, self.words_since) = (None, None, 0, 0);
         (self.of_telegrams, self.of_leftovers, self.slips, self.column) = (false, false, 0, false);
-        (self.last_word, self.unclosed) = (0, [false; 2]);
+        (self.last_word, self.unclosed) = (None, [false; 2]);
         self.breaks.clear();
-    }
-
-    /// Reads a row of octal numbers: bytes of three digits, and words of six with the low byte first.
-    pub fn read_octal(&mut self, line: &[u8], from: usize) {
-        self.clear();
-        self.hex_only = true;
-        let mut at = from;
-        while at < line.len() {
-            let count = line[at..].iter().take_while(|c| (b'0'..=b'7').contains(*c)).count();
-            let digits = &line[at..at + count];
-            let value = digits.iter().take(6).fold(0_u32, |value, c| value * 8 + u32::from(c - b'0'));
-            let first = self.hex.len();
-            match (count, value) {
-                (3, ..=0xFF) => self.push(value as u8, 0, at, at + 3),
-                (6, ..=0xFFFF) => {
-                    self.push(value as u8, 0, at + 3, at + 6);
-                    self.push((value >> 8) as u8, 0, at, at + 3);
-                }
-                (0, _) => {}
-                _ => return self.close(),
-            }
-            if count > 0 {
-                self.join(line, at, at + count, first, PLAIN);
-            }
-            at += count.max(1);
-        }
-        self.close();
-    }
-
-    /// Most of a log are bytes of two hex digits with the same between them: they are read without
-    /// asking what else they could be. Returns where that ends.
-    #[inline]
-    fn same_again(&mut self, line: &[u8], mut at: usize, numbers: Option<Numbers>) -> usize {
-        let Some(run) = &mut self.open else { return at };
-        let width = run.gap;
-        let known = run.since >= 2
-            && run.hex
-            && !run.marked
-            && !run.single
-            && run.span.to == at
-            && (1..=2).contains(&width);
-        if !known || numbers == Some(Numbers::Decimal) {
-            return at;
-        }
-        let gap = [line[run.second_at - width], line[run.second_at - 1]];
-        while let Some(next) = line.get(at..at + width + 2) {
-            let (between, digits) = next.split_at(width);
-            let (high, low) = (DIGITS[usize::from(digits[0])], DIGITS[usize::from(digits[1])]);
-            let same = between[0] == gap[0] && between[width - 1] == gap[1];
-            let ends = line.get(at + width + 2).is_none_or(|c| !is_word(*c));
-            if !same || (high | low) > 15 || !ends {
-                break;
-            }
-            let place = Span::new(at + width, at + width + 2);
-            self.hex.push(high << 4 | low);
-            if !self.hex_only {
-                self.decimal.push(high.wrapping_mul(10).wrapping_add(low));
-            }
-            self.places.push(place);
-            run.decimal &= (high < 10) & (low < 10);
-            run.padded |= high == 0;
-            run.tokens += 1;
-            run.since += 1;
-            at = place.to;
-        }
-        if at > run.span.to {
-            (run.last, run.end) = (self.hex.len() - 1, self.hex.len());
-            (run.span.to, run.colon) = (at, false);
-        }
-        at
-    }
-
-    /// Whether the first number of a run counts the bytes behind it.
-    pub fn counts(&self, run: &Run) -> bool {
-        // Counts are decimal, whatever the bytes are.
-        let first = self.hex[run.first];
-        let count = if run.hex { first / 16 * 10 + first % 16 } else { self.decimal[run.first] };
-        run.len() > 4 && run.tokens() == run.len() && usize::from(count) + 1 == run.len()
-    }
-
-    /// Takes the first number out of runs where it counts the bytes behind it.
-    pub fn drop_counts(&mut self) {
-        for at in 0..self.runs.len() {
-            if self.counts(&self.runs[at]) {
-                let run = &mut self.runs[at];
-                run.first += 1;
-                run.span.from = self.places[run.first].from;
-            }
-        }
-    }
-
-    /// The bytes of `run`, decimal only where they must be or are known to be.
-    pub fn bytes(&self, run: &Run, numbers: Numbers) -> &[u8] {
-        let decimal =
-            !self.hex_only && run.decimal && (!run.hex || numbers == Numbers::Decimal) && !run.marked;
-        &(if decimal { &self.decimal } else { &self.hex })[run.first..run.end]
-    }
-
-    /// The bytes of `run` read as decimal numbers, if they can be.
-    pub fn decimal_bytes(&self, run: &Run) -> Option<&[u8]> {
-        // Who writes 01 means hex, unless other numbers of the list have a mark.
-        let meant = !run.hex || !run.padded || run.marked;
-        (run.decimal && meant && !self.hex_only).then(|| &self.decimal[run.first..run.end])
-    }
-
-    /// Whether another number of the line says how many bytes `run` has.
-    pub fn is_counted(&self, line: &[u8], run: &Run) -> bool {
-        let number = |other: &Run| other.tokens == 1 && decimal(other.span.of(line)) == Some(run.len());
-        run.len() > 1 && self.near(run).iter().any(|other| other.first != run.first && number(other))
-    }
-
-    /// The runs around `run`: of a line with thousands, those far away say nothing of it.
-    pub fn near(&self, run: &Run) -> &[Run] {
-        const NEAR: usize = 32;
-        let at = self.runs.partition_point(|other| other.first < run.first);
-        &self.runs[at.saturating_sub(NEAR)..self.runs.len().min(at + NEAR)]
-    }
-
-    /// Whether `run` is the one byte of a short acknowledgement of PROFIBUS behind its name: `SC E5`.
-    pub fn is_acknowledgement(&self, run: &Run) -> bool {
-        const SC: u8 = 0xE5;
-        run.len() == 1 && self.hex[run.first] == SC && run.word == word_of(b"SC")
-    }
-
-    /// The last number of the line, in decimal; 0 if there is none.
-    pub fn last_number(&self, line: &[u8]) -> usize {
-        let last = self.runs.last().and_then(|run| {
-            let digits = run.span.of(line);
-            let from = digits.iter().rposition(|c| !is_digit(*c)).map_or(0, |at| at + 1);
-            decimal(&digits[from..])
-        });
-        last.unwrap_or_default()
-    }
-
-    /// Whether nothing but marks stands behind `run`.
-    pub fn tail_is_plain(&self, line: &[u8], run: &Run) -> bool {
-        !line[run.span.to..].iter().any(u8::is_ascii_alphanumeric)
     }
 
     /// `S1:` and `E1:` at the beginning of a line, as manuals number what is sent and what comes back.
@@ -468,52 +208,52 @@ impl Scan {
         Some(to)
     }
 
-    fn word(&mut self, line: &[u8], at: usize, numbers: Option<Numbers>) -> usize {
+    fn word(&mut self, line: &[u8], at: usize) -> usize {
         if is_digit(line[at]) {
             // Bytes with dots or colons can go on like an address or a time.
-            let goes_on = self.open.as_ref().is_some_and(|run| {
+            let goes_on = |run: &Run| {
                 run.span.to + 1 == at && (run.tokens > 1 || matches!(line[run.span.to], b'.' | b':' | b'-'))
-            });
+            };
             let end = at + line[at..].iter().take_while(|c| is_digit(**c)).count();
-            let mark = line.get(end).copied().filter(|_| !goes_on).unwrap_or_default();
-            if mark == b'.'
-                && let Some(to) = address(line, at)
-            {
-                self.end_of_connection(line, Span::new(at, to));
-                return to;
-            }
-            if matches!(mark, b':' | b'-' | b'/' | b'.')
-                && let Some(found) = self.time_at(line, at)
-            {
-                self.close();
-                self.time = self.time.or(Some(found.micros));
-                return found.to;
+            let mark = line.get(end).filter(|c| matches!(c, b':' | b'-' | b'/' | b'.')).copied();
+            if let Some(mark) = mark.filter(|_| !self.open().is_some_and(goes_on)) {
+                if mark == b'.'
+                    && let Some(to) = address(line, at)
+                {
+                    self.end_of_connection(line, Span::new(at, to));
+                    return to;
+                }
+                if let Some(found) = self.time_at(line, at) {
+                    self.close();
+                    if self.time.is_none() {
+                        (self.time, self.time_place) = (Some(found.micros), Some(Span::new(at, found.to)));
+                    }
+                    return found.to;
+                }
             }
         }
         if line[at..].starts_with(b"16#") {
             return self.based(line, at);
         }
-        let to = word_end(line, at);
-        let first = self.hex.len();
+        let word = word(line, at);
+        let (to, first) = (word.to, self.hex.len());
         // The letter before a string says what kind of string it is: b"…".
         if to - at == 1 && line[at].is_ascii_alphabetic() && matches!(line.get(to), Some(b'"' | b'\'')) {
             self.close();
             return to;
         }
-        match self.token(line, at, to, numbers) {
+        match self.token(line, at, word) {
             Token::Bytes(kind) => {
                 self.join(line, at, to, first, kind);
                 to
             }
             Token::Word => {
-                self.hex.truncate(first);
-                self.decimal.truncate(first);
-                self.places.truncate(first);
+                self.forget(first);
                 if let Some(to) = self.slip(line, at, to) {
                     return to;
                 }
                 self.close();
-                self.last_word = word_of(&line[at..to]);
+                self.last_word = Some(Span::new(at, to));
                 match words::word(&line[at..to]) {
                     Some(About::Sender(sender, weight)) => self.say(sender, weight),
                     Some(About::Telegrams) => {
@@ -535,307 +275,8 @@ impl Scan {
         }
     }
 
-    /// A word within bytes that is nearly one: a slip of typing, or bytes into whose line another program
-    /// wrote (`00MQTT is up`). Returns where it ends.
-    fn slip(&mut self, line: &[u8], at: usize, to: usize) -> Option<usize> {
-        let text = &line[at..to];
-        let hex = text.iter().filter(|c| c.is_ascii_hexdigit()).count();
-        let blank = self.open.as_ref().is_none_or(|run| separator(&line[run.span.to..at]) == Some(b' '));
-        let typing = hex == text.len() && hex > 2 && self.words == 0 && self.time.is_none() && blank;
-        // Of a long number of which little is wrong, the good pairs are read.
-        let nearly = text.len() >= 6
-            && (text.len() - hex) * 4 < text.len()
-            && (1..=2).contains(&(text.len() - hex))
-            && self.words == 0;
-        if (typing || nearly) && is_digit(text[0]) && !is_bits(text) {
-            let first = self.hex.len();
-            for pair in (at..to).step_by(2) {
-                let end = (pair + 2).min(to);
-                if end - pair == 2 && line[pair..end].iter().all(u8::is_ascii_hexdigit) {
-                    self.push(hex_value(&line[pair..end]), 0, pair, end);
-                }
-            }
-            self.slips += 1;
-            self.join(line, at, to, first, Kind { style: Style::Contiguous, ..PLAIN });
-            return Some(to);
-        }
-        let run = self.open.as_mut().filter(|run| run.hex && !run.marked && run.tokens > 0)?;
-        let separated = blank && run.style == Style::Separated;
-        let typed = match text {
-            [_] => !is_digit(text[0]) && !matches!(text[0], b'x' | b'X'),
-            [a, b] => hex == 1 && (is_digit(*a) || matches!(a, b'O' | b'o' | b'l' | b'I') || is_digit(*b)),
-            _ => false,
-        };
-        if separated && typed && run.tokens > 1 {
-            run.span.to = to;
-            run.since = 0;
-            self.slips += 1;
-            return Some(to);
-        }
-        let [a, b, behind, ..] = text else { return None };
-        let glued = a.is_ascii_hexdigit()
-            && b.is_ascii_hexdigit()
-            && behind.is_ascii_uppercase()
-            && !behind.is_ascii_hexdigit();
-        if separated && glued && run.tokens > 2 && run.padded && (is_digit(*a) || is_digit(*b)) {
-            let first = self.hex.len();
-            self.push(hex_value(&text[..2]), 0, at, at + 2);
-            self.join(line, at, at + 2, first, PLAIN);
-            self.close();
-            return Some(at + 2);
-        }
-        None
-    }
-
-    /// `&H01`, as Basic has it.
-    fn of_basic(&mut self, line: &[u8], at: usize) -> usize {
-        let from = at + 2;
-        let to = from + line[from..].iter().take_while(|c| c.is_ascii_hexdigit()).count();
-        if !(1..=2).contains(&(to - from)) {
-            return at + 1;
-        }
-        let first = self.hex.len();
-        self.push_marked(hex_value(&line[from..to]), at, to);
-        self.join(line, at, to, first, marked(Style::Prefixed));
-        to
-    }
-
     fn time_at(&self, line: &[u8], at: usize) -> Option<time::Found> {
         self.time_unit.and_then(|unit| time::number(line, at, unit)).or_else(|| time::at(line, at))
-    }
-
-    /// Adds the bytes that the letters and digits `at..to` stand for.
-    fn token(&mut self, line: &[u8], at: usize, to: usize, numbers: Option<Numbers>) -> Token {
-        let text = &line[at..to];
-        if let [b'0', b'x' | b'X', ..] = text {
-            return self.prefixed(line, at, to);
-        }
-        let count = text.len();
-        let digits = text.iter().all(|c| is_digit(*c));
-        if digits || text.iter().all(u8::is_ascii_hexdigit) {
-            let letters = count > 2 && !text.iter().any(|c| is_digit(*c));
-            let groups = || self.open.as_ref().is_some_and(|run| run.style == Style::Contiguous);
-            // Words such as "faced" are no bytes, and a row of bits is none either.
-            let word = letters && !(count == 4 && (groups() || fills_cell(line, at, to)));
-            if !self.in_row && (word || is_bits(text)) {
-                return Token::Word;
-            }
-            let decimal = digits && count <= 3 && numbers != Some(Numbers::Hex);
-            let value =
-                if decimal { text.iter().fold(0, |sum, c| sum * 10 + u32::from(c - b'0')) } else { 256 };
-            let hex =
-                count != 3 && (count < 2 || count.is_multiple_of(2)) && numbers != Some(Numbers::Decimal);
-            return match (hex, value < 256) {
-                (false, false) => Token::Word,
-                (false, true) => {
-                    self.push(0, value as u8, at, to);
-                    Token::Bytes(Kind { hex: false, decimal: true, marked: false, style: Style::Separated })
-                }
-                (true, decimal) => {
-                    for pair in (at..to).step_by(2) {
-                        let end = (pair + 2).min(to);
-                        self.push(hex_value(&line[pair..end]), value as u8, pair, end);
-                    }
-                    let style = if count > 2 { Style::Contiguous } else { Style::Separated };
-                    Token::Bytes(Kind { hex: true, decimal: decimal && count <= 2, marked: false, style })
-                }
-            };
-        }
-        let digits = &text[..count - 1];
-        let suffixed = matches!(text[count - 1], b'h' | b'H') && digits.iter().all(u8::is_ascii_hexdigit)
-            // "ach" is a word.
-            && (digits.iter().any(|c| is_digit(*c)) || digits.iter().all(u8::is_ascii_uppercase));
-        match (suffixed, text) {
-            (true, [_, _] | [_, _, _] | [b'0', _, _, _]) => {
-                let from = if count == 4 { at + 1 } else { at };
-                self.push_marked(hex_value(&line[from..to - 1]), at, to);
-                Token::Bytes(marked(Style::Suffixed))
-            }
-            (true, [_, _, _, _, _]) => {
-                self.push_marked(hex_value(&text[..2]), at, at + 2);
-                self.push_marked(hex_value(&text[2..4]), at + 2, to);
-                Token::Bytes(marked(Style::Suffixed))
-            }
-            _ => Token::Word,
-        }
-    }
-
-    /// `0x1`, `0x01`, `0x0103`, `0x010x03`, and with the suffix of an integer's type.
-    fn prefixed(&mut self, line: &[u8], at: usize, to: usize) -> Token {
-        let mut from = at;
-        while let [b'0', b'x' | b'X', digits @ ..] = &line[from..to] {
-            let mut count = digits.iter().take_while(|c| c.is_ascii_hexdigit()).count();
-            // The zero before the next x is its own.
-            if matches!(digits.get(count), Some(b'x' | b'X')) {
-                count = count.saturating_sub(1);
-            }
-            if count == 0 || (count > 2 && count % 2 == 1) {
-                return Token::Word;
-            }
-            for pair in (0..count).step_by(2) {
-                let place = if pair == 0 { from } else { from + 2 + pair };
-                let end = from + 2 + (pair + 2).min(count);
-                self.push_marked(hex_value(&line[from + 2 + pair..end]), place, end);
-            }
-            from += 2 + count;
-        }
-        match line[from..to].first() {
-            None | Some(b'u' | b'U' | b'l' | b'L' | b'i') if to - from <= 3 => {
-                Token::Bytes(marked(Style::Prefixed))
-            }
-            _ => Token::Word,
-        }
-    }
-
-    /// `16#01`, as programs for controllers have it.
-    fn based(&mut self, line: &[u8], at: usize) -> usize {
-        let from = at + 3;
-        let to = word_end(line, from);
-        let text = &line[from..to];
-        if matches!(text.len(), 1 | 2) && text.iter().all(u8::is_ascii_hexdigit) {
-            let first = self.hex.len();
-            self.push_marked(hex_value(text), at, to);
-            self.join(line, at, to, first, marked(Style::Prefixed));
-        } else {
-            self.stranger();
-        }
-        to
-    }
-
-    fn push(&mut self, hex: u8, decimal: u8, from: usize, to: usize) {
-        self.hex.push(hex);
-        if !self.hex_only {
-            self.decimal.push(decimal);
-        }
-        self.places.push(Span::new(from, to));
-    }
-
-    /// A byte with a mark of its own is the same in a list of decimal numbers.
-    fn push_marked(&mut self, value: u8, from: usize, to: usize) {
-        self.push(value, value, from, to);
-    }
-
-    /// Takes the bytes from `first` on into the open run, or begins a new one.
-    fn join(&mut self, line: &[u8], at: usize, to: usize, first: usize, kind: Kind) {
-        /// A run with more breaks is none.
-        const BREAKS: usize = 8;
-        /// A number of so many bytes can be a telegram by itself.
-        const LONG: usize = 4;
-        let short = kind.style == Style::Separated && to - at <= 2;
-        let single = short && to - at == 1;
-        let padded = short && to - at == 2 && line[at] == b'0';
-        if let Some(run) = &mut self.open {
-            let gap = &line[run.span.to..at];
-            let between = separator(gap);
-            let both = (run.hex && kind.hex) || (run.decimal && kind.decimal);
-            // In a list, decimal numbers can stand beside hex ones with a mark.
-            let list = between == Some(b',') && run.separator_or(b',') == b',';
-            // Long numbers in a list are a telegram each; in the rows of a dump they are words.
-            let long = first - run.last >= LONG || self.hex.len() - first >= LONG;
-            let fits = !(long && between != Some(b' '))
-                && ((both && run.marked == kind.marked) || (list && (both || run.marked || kind.marked)));
-            // `a 01 03`, `01 03 0`: who writes zeros before one digit writes them before each.
-            let apart = between == Some(b' ') && !kind.marked && run.tokens > 0;
-            let odd = apart && ((padded && run.single && run.tokens == 1) || (single && run.padded));
-            if let Some(mark) = between.filter(|_| fits && !odd) {
-                if run.since == 0 {
-                    (run.separator, run.gap) = (0, 0);
-                } else if run.since == 1 {
-                    (run.separator, run.gap, run.second, run.second_at) = (mark, gap.len(), first, at);
-                } else if mark != run.separator && !(run.tokens == 8 && run.separator == b' ' && gap == b"-")
-                {
-                    // `8: 01 03 …`: what stands between them changes behind the first one already.
-                    let restart = run.since == 2;
-                    let place = if restart { run.second } else { first };
-                    // What was decimal before a break need not be so behind it.
-                    let other = !run.hex && kind.hex;
-                    if run.breaks.len() >= BREAKS || other {
-                        self.close();
-                        return self.begin(line, at, to, first, kind, (single, padded));
-                    }
-                    self.breaks.push(place);
-                    run.breaks.to = self.breaks.len();
-                    run.since = 0;
-                    if restart {
-                        run.since = 1;
-                        (run.separator, run.gap, run.second, run.second_at) = (mark, gap.len(), first, at);
-                    }
-                }
-                run.last = first;
-                run.end = self.hex.len();
-                run.span.to = to;
-                run.tokens += 1;
-                run.since += 1;
-                run.decimal = (run.decimal || run.marked) && (kind.decimal || kind.marked);
-                run.hex &= kind.hex;
-                run.marked |= kind.marked;
-                run.single |= single;
-                run.padded |= padded;
-                if kind.style == Style::Contiguous {
-                    run.style = Style::Contiguous;
-                }
-                run.colon = false;
-                return;
-            }
-        }
-        self.close();
-        self.begin(line, at, to, first, kind, (single, padded));
-    }
-
-    fn begin(
-        &mut self,
-        line: &[u8],
-        at: usize,
-        to: usize,
-        first: usize,
-        kind: Kind,
-        (single, padded): (bool, bool),
-    ) {
-        let before = |back: usize| at.checked_sub(back).map(|place| line[place]);
-        let colon = before(1) == Some(b':') && !before(2).is_some_and(|c| c.is_ascii_alphanumeric());
-        let sender = self.strong.map(|sender| (sender, Weight::Strong));
-        self.open = Some(Run {
-            first,
-            end: self.hex.len(),
-            span: Span::new(at, to),
-            hex: kind.hex,
-            decimal: kind.decimal,
-            marked: kind.marked,
-            style: kind.style,
-            colon: colon && to - at >= 6,
-            sender: sender.or(self.weak.map(|sender| (sender, Weight::Weak))),
-            said: self.words_since == 0 && (self.strong.is_some() || self.weak.is_some()),
-            word: self.last_word,
-            breaks: Span::new(self.breaks.len(), self.breaks.len()),
-            tokens: 1,
-            last: first,
-            since: 1,
-            single,
-            padded,
-            second: first,
-            second_at: at,
-            separator: 0,
-            gap: 0,
-        });
-    }
-
-    fn close(&mut self) {
-        let Some(mut run) = self.open.take() else { return };
-        // [01][03] is sent and <01><03> received: libmodbus writes so.
-        let sender = match run.separator {
-            b']' => Some(Sender::Logger),
-            b'>' => Some(Sender::Other),
-            _ => None,
-        };
-        if let Some(sender) = sender.filter(|_| run.tokens > 2 && run.sender.is_none()) {
-            run.sender = Some((sender, Weight::Strong));
-        }
-        /// So many bytes that what is said before them is not said of the next ones.
-        const TELEGRAM: usize = 4;
-        if run.len() >= TELEGRAM {
-            (self.strong, self.weak) = (None, None);
-        }
-        self.runs.push(run);
     }
 
     /// Who speaks where an arrow comes right behind a word for one side: `master -> slave`.
@@ -846,24 +287,6 @@ impl Scan {
             (Sender::Other, Direction::Response) => Direction::Request,
             _ => before,
         }))
-    }
-
-    /// Whether a number below 0 begins at a minus, as some languages write bytes: `4, -40, 0`.
-    fn is_negative(&self, line: &[u8], at: usize) -> bool {
-        let apart = at.checked_sub(1).is_some_and(|before| matches!(line[before], b' ' | b',' | b'[' | b'{'));
-        let number =
-            digits(line, at + 1).filter(|(value, _)| (1..=128).contains(value) && line[at + 1] != b'0');
-        let ends = |to: usize| line.get(to).is_none_or(|c| matches!(c, b' ' | b',' | b']' | b'}' | b';'));
-        apart && number.is_some_and(|(_, to)| ends(to))
-    }
-
-    fn negative(&mut self, line: &[u8], at: usize) -> usize {
-        let Some((value, to)) = digits(line, at + 1) else { return at + 1 };
-        let first = self.hex.len();
-        self.push(0, (value as u8).wrapping_neg(), at, to);
-        let kind = Kind { hex: false, decimal: true, marked: false, style: Style::Separated };
-        self.join(line, at, to, first, kind);
-        to
     }
 
     fn say(&mut self, sender: Sender, weight: Weight) {
@@ -911,71 +334,24 @@ impl Scan {
         }
     }
 
+    /// Takes over what was read of another line.
+    fn like(&mut self, other: &Self) {
+        self.hex.clone_from(&other.hex);
+        self.places.clone_from(&other.places);
+        self.runs.clone_from(&other.runs);
+        self.port.clone_from(&other.port);
+        self.breaks.clone_from(&other.breaks);
+        self.decimal.clear();
+        (self.numbers, self.sender, self.both) = (other.numbers, other.sender, other.both);
+        (self.words, self.slips, self.column) = (other.words, other.slips, other.column);
+        (self.of_telegrams, self.of_leftovers) = (other.of_telegrams, other.of_leftovers);
+    }
+
     /// A word that says nothing.
     fn stranger(&mut self) {
         self.close();
         self.words += 1;
         self.words_since += 1;
-    }
-
-    /// `\x01` outside of quotes. Letters and digits right behind one are characters, as in the `\x845` that
-    /// Python prints for 84 35.
-    fn escape(&mut self, line: &[u8], at: usize) -> usize {
-        let hex = |at: usize| match line.get(at..at + 4) {
-            Some([b'\\', b'x' | b'X', digits @ ..]) if digits.iter().all(u8::is_ascii_hexdigit) => {
-                Some(hex_value(digits))
-            }
-            _ => None,
-        };
-        let Some(byte) = hex(at) else { return at + 1 };
-        let first = self.hex.len();
-        self.push_marked(byte, at, at + 4);
-        let mut to = at + 4;
-        while let Some(c) = line.get(to).copied().filter(u8::is_ascii_alphanumeric) {
-            self.push_marked(c, to, to + 1);
-            to += 1;
-        }
-        self.join(line, at, to, first, marked(Style::Escaped));
-        to
-    }
-
-    /// A string with escapes in it is bytes, each character one: `b'\x01\x03E'`.
-    fn quoted(&mut self, line: &[u8], at: usize) -> usize {
-        /// What can follow a backslash, but in a path of Windows.
-        const ESCAPES: &[u8] = b"xX0123456789tnrabvfeu\\\"'";
-        let quote = line[at];
-        let unclosed = &mut self.unclosed[usize::from(quote == b'"')];
-        if *unclosed {
-            return at + 1;
-        }
-        let mut to = at + 1;
-        let (mut escaped, mut path) = (false, false);
-        while to < line.len() && line[to] != quote {
-            // A character that no byte stands for, such as Ā: it is text.
-            path |= line[to] >= 0xC4 && line.get(to + 1).is_some_and(|next| (0x80..0xC0).contains(next));
-            if line[to] == b'\\' {
-                let next = line.get(to + 1).copied().unwrap_or_default();
-                escaped |= matches!(next, b'x' | b'X' | b'0'..=b'7' | b't' | b'n' | b'r');
-                path |= !ESCAPES.contains(&next);
-                to += 1;
-            }
-            to += 1;
-        }
-        *unclosed = to >= line.len();
-        if !escaped || path || to >= line.len() {
-            return at + 1;
-        }
-        self.close();
-        let first = self.hex.len();
-        let mut from = at + 1;
-        while from < to {
-            let (byte, length) = character(&line[from..to]);
-            self.push_marked(byte, from, from + length);
-            from += length;
-        }
-        self.join(line, at, to + 1, first, marked(Style::Escaped));
-        self.close();
-        to + 1
     }
 
     /// Whether what follows the open run shows its bytes as characters.
@@ -1009,6 +385,81 @@ impl Scan {
             shown.all(|byte| *byte == b' ')
         };
         blank > 0 && text.len() <= blank + 3 * bytes.len() && (1..=blank).any(shows)
+    }
+}
+
+/// What was read.
+impl Scan {
+    /// Decimal numbers are not asked for.
+    fn hex_only(&self) -> bool {
+        self.numbers == Some(Numbers::Hex)
+    }
+
+    /// Whether the first number of a run counts the bytes behind it.
+    pub fn counts(&self, run: &Run) -> bool {
+        // Counts are decimal, whatever the bytes are.
+        let first = self.hex[run.first];
+        let count = if run.hex { first / 16 * 10 + first % 16 } else { self.decimal[run.first] };
+        run.len() > 4 && run.tokens() == run.len() && usize::from(count) + 1 == run.len()
+    }
+
+    /// Takes the first number out of runs where it counts the bytes behind it.
+    pub fn drop_counts(&mut self) {
+        for at in 0..self.runs.len() {
+            if self.counts(&self.runs[at]) {
+                let run = &mut self.runs[at];
+                run.first += 1;
+                run.span.from = self.places[run.first].from;
+            }
+        }
+    }
+
+    /// The bytes of `run`, decimal only where they must be or are known to be.
+    pub fn bytes(&self, run: &Run, numbers: Numbers) -> &[u8] {
+        let decimal =
+            !self.hex_only() && run.decimal && (!run.hex || numbers == Numbers::Decimal) && !run.marked;
+        &(if decimal { &self.decimal } else { &self.hex })[run.first..run.end]
+    }
+
+    /// The bytes of `run` read as decimal numbers, if they can be.
+    pub fn decimal_bytes(&self, run: &Run) -> Option<&[u8]> {
+        // Who writes 01 means hex, unless other numbers of the list have a mark.
+        let meant = !run.hex || !run.padded || run.marked;
+        (run.decimal && meant && !self.hex_only()).then(|| &self.decimal[run.first..run.end])
+    }
+
+    /// Whether another number of the line says how many bytes `run` has.
+    pub fn is_counted(&self, line: &[u8], run: &Run) -> bool {
+        let number = |other: &Run| other.tokens == 1 && decimal(other.span.of(line)) == Some(run.len());
+        run.len() > 1 && self.near(run).iter().any(|other| other.first != run.first && number(other))
+    }
+
+    /// The runs around `run`: of a line with thousands, those far away say nothing of it.
+    pub fn near(&self, run: &Run) -> &[Run] {
+        const NEAR: usize = 32;
+        let at = self.runs.partition_point(|other| other.first < run.first);
+        &self.runs[at.saturating_sub(NEAR)..self.runs.len().min(at + NEAR)]
+    }
+
+    /// Whether `run` is the one byte of a short acknowledgement of PROFIBUS behind its name: `SC E5`.
+    pub fn is_acknowledgement(&self, run: &Run) -> bool {
+        const SC: u8 = 0xE5;
+        run.len() == 1 && self.hex[run.first] == SC && run.word == word_of(b"SC")
+    }
+
+    /// The last number of the line, in decimal; 0 if there is none.
+    pub fn last_number(&self, line: &[u8]) -> usize {
+        let last = self.runs.last().and_then(|run| {
+            let digits = run.span.of(line);
+            let from = digits.iter().rposition(|c| !is_digit(*c)).map_or(0, |at| at + 1);
+            decimal(&digits[from..])
+        });
+        last.unwrap_or_default()
+    }
+
+    /// Whether nothing but marks stands behind `run`.
+    pub fn tail_is_plain(&self, line: &[u8], run: &Run) -> bool {
+        !line[run.span.to..].iter().any(u8::is_ascii_alphanumeric)
     }
 }
 

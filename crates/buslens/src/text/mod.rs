@@ -40,7 +40,7 @@ pub use words::Sender;
 use crate::field::{Facts, Span};
 use columns::Columns;
 use dump::{Dump, Words};
-use line::{Run, Scan, Start};
+use line::{Alike, Run, Scan, Start};
 use words::Weight;
 
 /// How a text is to be read.
@@ -103,6 +103,7 @@ pub struct Piece<'a> {
 pub struct Reader {
     form: Form,
     scan: Scan,
+    alike: Alike,
     dump: Dump,
     /// The beginning of a line whose end has not come yet.
     carry: Vec<u8>,
@@ -249,17 +250,24 @@ impl Reader {
             self.end_list(sink);
             return self.end_columns(sink);
         }
-        let row = if self.long { None } else { self.dump.row(line) };
-        if row.is_none() && self.dump.ends(line) {
+        let whole = !self.long && quote == 0 && self.form.marks.is_none() && self.form.flow.is_none();
+        let alike = whole && self.alike.read(line, &mut self.scan);
+        let row = if self.long || alike { None } else { self.dump.row(line) };
+        if row.is_none() && !alike && self.dump.ends(line) {
             return;
         }
         let marked = self.form.marks.as_ref().and_then(|marks| marks.bytes_from(line));
         let begins = row.map_or(0, |row| row.from).max(marked.unwrap_or(0));
         let words = row.map(|row| row.words);
         match words {
+            _ if alike => {}
             Some(Words::Octal) => self.scan.read_octal(line, begins),
             _ => {
-                self.scan.read(line, Start { from: begins.max(quote), in_row: begins > 0 }, self.form.numbers)
+                let start = Start { from: begins.max(quote), in_row: begins > 0 };
+                self.scan.read(line, start, self.form.numbers);
+                if whole && row.is_none() {
+                    self.alike.learn(line, &self.scan);
+                }
             }
         }
         if self.form.counted {
@@ -272,11 +280,13 @@ impl Reader {
             Some(marks) => marks.time(line).or(self.scan.time),
             None => self.scan.time,
         };
-        // What does not go on with a list may begin one.
-        if row.is_some() || !self.is_row_of_list(line) {
+        let mut listed = row.is_none() && self.is_row_of_list(line);
+        if !listed && !self.list.bytes.is_empty() {
             self.end_list(sink);
+            // What does not go on with a list may begin one.
+            listed = row.is_none() && self.is_row_of_list(line);
         }
-        if row.is_none() && self.is_row_of_list(line) {
+        if listed {
             return self.take_row_of_list(line, time, sink);
         }
         if self.form.flow.is_some() {
@@ -468,21 +478,22 @@ impl Reader {
 
     /// Whether a line is a row of a list that goes on, or that went on in the row before.
     fn is_row_of_list(&self, line: &[u8]) -> bool {
+        let begins = self.list.bytes.is_empty();
         if self.long || self.form.flow.is_some() || self.form.marks.is_some() {
             return false;
         }
-        let code = without_comment(line);
-        let goes_on = code.trim_ascii_end().ends_with(b",");
-        let Some(first) = self.scan.runs.first().filter(|run| run.span.to <= code.len()) else {
+        let Some(first) = self.scan.runs.first() else { return false };
+        let alone = !line[..first.span.from].iter().any(u8::is_ascii_alphanumeric);
+        let may_begin = self.scan.time.is_none() && (alone || self.scan.runs.iter().any(|run| run.marked));
+        if !(alone || begins) || (begins && !may_begin) {
             return false;
-        };
-        let begins = !code[..first.span.from].iter().any(u8::is_ascii_alphanumeric);
-        let last = self.scan.runs.iter().rfind(|run| run.span.to <= code.len()).unwrap_or(first);
-        let ends = !code[last.span.to..].iter().any(u8::is_ascii_alphanumeric);
-        match self.list.bytes.is_empty() {
-            true => goes_on && ends && self.scan.time.is_none() && (begins || last.marked),
-            false => begins && ends,
         }
+        let code = without_comment(line);
+        let last = self.scan.runs.iter().rfind(|run| run.span.to <= code.len());
+        let Some(last) = last.filter(|_| first.span.to <= code.len()) else { return false };
+        let ends = !code[last.span.to..].iter().any(u8::is_ascii_alphanumeric);
+        let goes_on = code.trim_ascii_end().ends_with(b",");
+        ends && (!begins || (goes_on && (alone || last.marked)))
     }
 
     fn take_row_of_list(&mut self, line: &[u8], time: Option<i64>, sink: &mut dyn FnMut(Event<'_>)) {
@@ -651,8 +662,8 @@ fn facts(line: &[u8], run: &Run, scan: &Scan) -> Facts {
     let dots = behind.iter().take_while(|c| **c == b'.').count();
     let ends = behind.get(dots).is_none_or(|c| c.is_ascii_whitespace() || matches!(c, b')' | b']' | b'"'));
     let placeholder = [b"xx", b"??", b"XX"].iter().any(|sign| behind.starts_with(*sign));
-    let ellipsis =
-        ["…".as_bytes(), "・・".as_bytes()].iter().any(|sign| memchr::memmem::find(near, sign).is_some());
+    let ellipsis = !near.is_ascii()
+        && ["…".as_bytes(), "・・".as_bytes()].iter().any(|sign| memchr::memmem::find(near, sign).is_some());
     // `0103…C40B`: what is before the ellipsis lacks its end, and what is behind it its beginning.
     let glued = line[run.span.to..].starts_with(b"..") || line[..run.span.from].ends_with(b"..");
     let dotted = (2..=4).contains(&dots) && ends;

@@ -150,6 +150,27 @@ const fn said(sender: Sender, weight: Weight) -> About {
     About::Sender(sender, weight)
 }
 
+/// A word's letters as one number: small ones, and of others nothing that a letter could be.
+const fn packed(word: &[u8]) -> u128 {
+    let (mut packed, mut at) = (0, 0);
+    while at < word.len() {
+        packed = packed << 8 | (word[at] | 0x20) as u128;
+        at += 1;
+    }
+    packed
+}
+
+/// The [`WORDS`] as numbers.
+static PACKED: [u128; WORDS.len()] = {
+    let mut all = [0; WORDS.len()];
+    let mut at = 0;
+    while at < WORDS.len() {
+        all[at] = packed(WORDS[at].0.as_bytes());
+        at += 1;
+    }
+    all
+};
+
 /// Where in [`WORDS`] the words of each first letter begin; the last one is where all end.
 static FIRST: [u8; 27] = {
     let mut first = [0; 27];
@@ -171,8 +192,9 @@ pub fn word(word: &[u8]) -> Option<About> {
         return None;
     }
     let letter = usize::from(word[0].to_ascii_lowercase().checked_sub(b'a').filter(|letter| *letter < 26)?);
-    let same = &WORDS[usize::from(FIRST[letter])..usize::from(FIRST[letter + 1])];
-    same.iter().find(|(known, _)| known.as_bytes().eq_ignore_ascii_case(word)).map(|(_, about)| *about)
+    let same = usize::from(FIRST[letter])..usize::from(FIRST[letter + 1]);
+    let packed = packed(word);
+    same.into_iter().find(|at| PACKED[*at] == packed).map(|at| WORDS[at].1)
 }
 
 /// What the sign that begins at `at` is about, and where it ends.

@@ -38,7 +38,7 @@ pub fn summary(report: &Report) -> String {
         (failed, _) => format!("{} wrong", count(failed, "checksum")),
     });
     if summary.lines_not_understood > 0 {
-        parts.push(format!("{} without bytes", count(summary.lines_not_understood, "line")));
+        parts.push(format!("{} left unread", count(summary.lines_not_understood, "line")));
     }
     format!("{}.\n", parts.join(", "))
 }
@@ -101,7 +101,7 @@ mod tests {
             Options::default(),
         ));
         assert!(
-            text.starts_with("2 telegrams, 1 answered, 1 checksum wrong, 1 line without bytes.\n"),
+            text.starts_with("2 telegrams, 1 answered, 1 checksum wrong, 1 line left unread.\n"),
             "{text}"
         );
         assert!(text.contains("\n1. Modbus RTU request: Ask unit 1"), "{text}");

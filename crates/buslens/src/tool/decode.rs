@@ -115,6 +115,27 @@ pub struct Telegram {
     pub comment: String,
 }
 
+impl Telegram {
+    /// One that is known for what it is, from no text.
+    fn known(bytes: &[u8], direction: Direction, protocol: &'static Protocol) -> Self {
+        Self {
+            number: 1,
+            line: Line { bytes: bytes.to_vec(), ..Line::default() },
+            choice: Choice { protocol, reason: message!("it was made so"), others: Vec::new() },
+            guess: Guess { direction, certainty: Certainty::Certain, reason: message!("it was made so") },
+            verdict: (protocol.verdict)(bytes),
+            unit: (protocol.unit)(bytes),
+            answers: None,
+            answered_by: None,
+            step: None,
+            time: None,
+            latency: None,
+            state: None,
+            comment: String::new(),
+        }
+    }
+}
+
 /// A report in numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Summary {
@@ -151,31 +172,28 @@ impl Report {
         report
     }
 
+    /// A telegram that is known for what it is, by itself.
+    pub fn of_one(
+        bytes: &[u8],
+        direction: Direction,
+        protocol: &'static Protocol,
+        mut options: Options,
+    ) -> Self {
+        options.take_device();
+        Self::of(vec![Telegram::known(bytes, direction, protocol)], options)
+    }
+
     /// A request and a response to it, both of which are known for what they are.
-    pub(super) fn of_pair(
+    pub fn of_pair(
         request: &[u8],
         response: &[u8],
         protocol: &'static Protocol,
         mut options: Options,
     ) -> Self {
         options.take_device();
-        let telegram = |bytes: &[u8], direction| Telegram {
-            number: 1,
-            line: Line { bytes: bytes.to_vec(), ..Line::default() },
-            choice: Choice { protocol, reason: message!("it was made so"), others: Vec::new() },
-            guess: Guess { direction, certainty: Certainty::Certain, reason: message!("it was made so") },
-            verdict: (protocol.verdict)(bytes),
-            unit: (protocol.unit)(bytes),
-            answers: None,
-            answered_by: None,
-            step: None,
-            time: None,
-            latency: None,
-            state: None,
-            comment: String::new(),
-        };
-        let asked = Telegram { answered_by: Some(1), ..telegram(request, Direction::Request) };
-        let answer = Telegram { number: 2, answers: Some(0), ..telegram(response, Direction::Response) };
+        let known = |bytes, direction| Telegram::known(bytes, direction, protocol);
+        let asked = Telegram { answered_by: Some(1), ..known(request, Direction::Request) };
+        let answer = Telegram { number: 2, answers: Some(0), ..known(response, Direction::Response) };
         Self::of(vec![asked, answer], options)
     }
 

@@ -20,7 +20,7 @@ pub struct Digest {
     pub read: String,
     /// All of it in one sentence.
     pub headline: String,
-    /// What else there is to say: echoes, lines without bytes.
+    /// What else there is to say: echoes, unread lines.
     pub remarks: Vec<String>,
     pub findings: Vec<Finding>,
     pub units: Vec<Party>,

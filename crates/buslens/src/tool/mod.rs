@@ -14,12 +14,14 @@ mod editor;
 mod entries;
 pub mod examples;
 mod explain;
+pub mod gallery;
 #[cfg(feature = "json")]
 pub mod json;
 pub mod link;
 pub mod log;
 mod offers;
 mod proposals;
+pub mod reference;
 mod replies;
 mod search;
 pub mod settings;

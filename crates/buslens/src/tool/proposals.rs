@@ -52,9 +52,13 @@ fn propose(report: &Report, unit: Option<u8>, device: &'static Profile) -> Optio
     let chosen: Vec<usize> =
         (0..report.telegrams.len()).filter(|index| own(&&report.telegrams[*index])).take(MOST).collect();
     let read_as = report.read_as(&chosen, Options { device: Some(device), ..report.options.clone() });
-    let (mut bits, mut good, mut named, mut evidence) = (0, 0, 0, Vec::new());
+    let (mut bits, mut good, mut named, mut unique, mut evidence) = (0, 0, 0, 0, Vec::new());
     for (at, index) in chosen.iter().enumerate() {
         let detail = read_as.detail(at)?;
+        // What speaks Modbus is no station of PROFIBUS, whatever the addresses look like.
+        if device.functions.is_empty() && detail.function.is_some() {
+            continue;
+        }
         let mut own = 0;
         let strange = [
             "not-in-manual",
@@ -85,10 +89,10 @@ fn propose(report: &Report, unit: Option<u8>, device: &'static Profile) -> Optio
         }
         // Only the maker's own devices know these.
         if detail.function.is_some_and(|function| function >= 100 && device.functions.contains(&function)) {
-            own += 8;
+            (own, unique) = (own + 8, unique + 1);
         }
         if device.ident.is_some() && detail.fields_hold("Ident number", device.ident.map(u64::from)) {
-            own += 16;
+            (own, unique) = (own + 16, unique + 1);
         }
         bits += own;
         if own > 0 {
@@ -100,6 +104,7 @@ fn propose(report: &Report, unit: Option<u8>, device: &'static Profile) -> Optio
         None => message!("what was said"),
     };
     let what = match (good, named) {
+        (0, 0) => message!("{n} that only it knows", n = count(unique, "telegram")),
         (0, named) => message!("{n} of its manual", n = count(named, "name")),
         (good, _) => message!("{n} with good status", n = count(good, "block")),
     };

@@ -140,9 +140,9 @@ struct Word {
 }
 
 #[derive(Clone, Copy)]
-struct Number {
+pub(super) struct Number {
     /// Whole numbers that can be addresses or say which one.
-    whole: Option<u64>,
+    pub whole: Option<u64>,
     hex: bool,
 }
 
@@ -278,7 +278,7 @@ impl Word {
 }
 
 impl Number {
-    fn of(text: &str) -> Option<Self> {
+    pub fn of(text: &str) -> Option<Self> {
         let plain = text.replace('\u{2212}', "-").to_ascii_lowercase();
         let hex = plain.strip_prefix("0x").or_else(|| plain.strip_suffix('h'));
         if let Some(digits) = hex.filter(|digits| !digits.is_empty()) {
@@ -307,7 +307,7 @@ fn parts(word: &str) -> Vec<String> {
 }
 
 /// Letters and digits, small: `Sy.51`, `SY_51` and `sy51` are the same.
-fn fold(text: &str) -> String {
+pub(super) fn fold(text: &str) -> String {
     text.chars().filter(char::is_ascii_alphanumeric).map(|c| c.to_ascii_lowercase()).collect()
 }
 

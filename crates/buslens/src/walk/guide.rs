@@ -26,6 +26,15 @@ pub enum Size {
     Rest,
     /// A group: its rows follow.
     Group,
+    /// A list: the rows of one of its items follow.
+    List,
+}
+
+impl Size {
+    /// Whether it stands for the rows that follow.
+    pub const fn is_around(self) -> bool {
+        matches!(self, Self::Group | Self::List)
+    }
 }
 
 /// The layout of `telegram`, a row for each field; a list is shown by one item.
@@ -54,8 +63,8 @@ impl Guide {
         self.offset = self.offset.map(|offset| offset + width);
     }
 
-    fn group(&mut self, spec: &'static Spec, part: impl FnOnce(&mut Self) -> Walk) -> Walk {
-        self.row(spec, Size::Group, None);
+    fn group(&mut self, spec: &'static Spec, size: Size, part: impl FnOnce(&mut Self) -> Walk) -> Walk {
+        self.row(spec, size, None);
         self.depth += 1;
         let walk = part(self);
         self.depth -= 1;
@@ -90,7 +99,12 @@ impl Walker for Guide {
         Ok(())
     }
 
-    fn bytes(&mut self, spec: &'static Spec, _: &mut Vec<u8>, _: Option<usize>) -> Walk {
+    fn bytes(&mut self, spec: &'static Spec, _: &mut Vec<u8>, count: Option<usize>) -> Walk {
+        // What is announced counts 1 here: only what does not vary counts more.
+        if let Some(count) = count.filter(|count| *count > 1) {
+            self.fixed(spec, count, None);
+            return Ok(());
+        }
         self.row(spec, Size::Rest, None);
         self.offset = None;
         Ok(())
@@ -104,7 +118,7 @@ impl Walker for Guide {
         _: Option<u64>,
     ) -> Walk {
         items.resize(1);
-        self.group(spec, |guide| {
+        self.group(spec, Size::List, |guide| {
             let repeats = std::mem::replace(&mut guide.repeats, true);
             let walk = items.walk(0, guide);
             guide.repeats = repeats;
@@ -114,7 +128,7 @@ impl Walker for Guide {
     }
 
     fn within(&mut self, spec: &'static Spec, part: Part<'_>) -> Walk {
-        self.group(spec, |guide| part(guide))
+        self.group(spec, Size::Group, |guide| part(guide))
     }
 
     fn window(&mut self, _: usize, part: Part<'_>) -> Walk {

@@ -11,6 +11,7 @@ use buslens::modbus::STANDARD;
 use buslens::text::{self, Event, Form, Marks, Numbers, Piece, Place, Reader, Sender};
 use buslens::tool::log::{Log, Reading, Role};
 use buslens::tool::{Options, PROTOCOLS, Protocol};
+use buslens::walk::CRC_16_MODBUS;
 
 use super::{assert_table, bytes};
 
@@ -226,6 +227,131 @@ const SURROUNDINGS: &[&str] = &[
     "550e8400-e29b-41d4-a716-446655440000",
     "1.2.3.4",
     "v1.2.3 build 20260302",
+    "0000 01 03 00 C8",
+    "0000:01 03 00 C8",
+    "0000:\t01 03 00 C8",
+    "0000  01.03",
+    "0000  01-03",
+    "0000  010300C800",
+    "00000000 01 03 00 C8",
+    "x 00000000  01 03 00 C8",
+    "x 0000  01 03 00 C8",
+    "00000000000000000  01 03",
+    "000  01 03",
+    "0000: xx",
+    "0003: 01 03 00 C8",
+    "1, 3, 0, 20, 0x05, 6",
+    "01 03 00 C8, 00 03",
+    "0103,00C8,0003",
+    "01030405,06070809",
+    "01030405 06070809",
+    "0103 04050607 0809",
+    "01  03 00 C8",
+    "01 03  00 C8 00 03",
+    "01 03 00 C8  00 03",
+    "01, 03, 00,C8, 00, 03",
+    "01, 03, 00, C8x 00, 03",
+    "01 03 00 C8x",
+    "01 03 00 C8é",
+    "01 03 00 3",
+    "01 03 00 30 030 40",
+    "10 20 30 40 50 60",
+    "10 20 30 40 50 6A",
+    "10 20 30 40 5A 60 70 80",
+    "10 20 30 07 50 60",
+    "01 03 00 O8 Q 00",
+    "01 03 00 ab1z 00",
+    "12 34 5x 78 9a",
+    "12 34 xx 78 9a",
+    "12 34 x5 78 9a",
+    "12 34 G 78 9a",
+    "12 34 G",
+    "12 G 78 9a",
+    "12,34,G,78,9a",
+    "12 34 56 00Zq 78",
+    "12 34 56 0AZq 78",
+    "12 34 56 AAZq 78",
+    "01 02 03 AAZq 78",
+    "01 02 03 0Azq 78",
+    "01 02 0AZq 78",
+    "1234567G90",
+    "123G567G90AB",
+    "12G456",
+    "12G45",
+    "A2G456",
+    "word 1234567G90",
+    "word 12345",
+    "12345",
+    "1234567",
+    "a1234567",
+    "10:00:00 1234567",
+    "0101",
+    "01 1",
+    "1 01",
+    "a 01 03 00",
+    "1 01 03 00",
+    "read 1 01 03 00 C8",
+    "ask, answer 01 03 00 C8",
+    "tx rx 01 03 00 C8",
+    "tx -> rx 01 03 00 C8",
+    "server -> 01 03 00 C8",
+    "server <- 01 03 00 C8",
+    "client -> 01 03 00 C8",
+    "client <- 01 03 00 C8",
+    "server x <- 01 03 00 C8",
+    "read write 01 03 00 C8",
+    "send read 01 03 00 C8",
+    "tx: 01 03 00 C8 01 03 00 C8",
+    "tx: 01 03 00 then 01 03 00 C8",
+    "tx: 01 03 00 C8 then 01 03 00 C8",
+    "[01][03]",
+    "[01][03][00]",
+    "<01><03><00>",
+    "tx [01][03][00]",
+    "10.0.0.7:502 -> 10.0.0.1:502 tx 01 06 00 C8",
+    "tx 10.0.0.7:1502 -> 10.0.0.1:502 01 06 00 C8",
+    "10.0.0.1:502 -> 10.0.0.7:1502 01 06 00 C8",
+    "-12, 34, 56, 78",
+    "12, -34, 56, 78",
+    "12,-34,56,78",
+    "12, -034, 56, 78",
+    "12, -128, 56, 78",
+    "12, -34; 56",
+    "12, -34x, 56, 78",
+    "[-1, -2, -3, -4]",
+    "{-1, -2, -3, -4}",
+    "12-34-56-78",
+    "0x12 -34",
+    r"\x01\x0g\x03",
+    r"\x01",
+    r"\x1\x2",
+    r#""\x01" "\x03\x00""#,
+    "'01 03 00 C8",
+    "\"01 03 00 C8",
+    "it's \\x01\\x03 'a' \"b\"",
+    "01 03 00 C8   ....  ",
+    "01 03 00 C8\t....",
+    "01 03 00 C8 ....",
+    "01 03 00 C8|....",
+    "01 03 00 C8 | ....",
+    "41 42 43 44  ABCD",
+    "41 42 43 44  ABC",
+    "41 42 43 44  ABCDE",
+    "41 42 20 20  AB",
+    "20 20 41 42    AB",
+    "41 42 43 44  ÄBCD",
+    "01 03 00 C8 {8}",
+    "(2) 01 03 00 C8",
+    "(4) 01 03 00 C8",
+    "4: 0103 00C8",
+    "count 4 of 01 03 00 C8",
+    "01 4",
+    "SC: 01",
+    "sc e5",
+    "xx E5 SC",
+    "0b00000001 0b00000011",
+    "11000101",
+    "tx 11000101 01 03 00 C8",
 ];
 
 /// Times in front of bytes.
@@ -361,6 +487,57 @@ const BLOCKS: &[&str] = &[
     "9 01 03 00 C8 00 03 84 35\n11 01 03 06 00 80 42 A4 F1 DE B0 F8",
     "10:00:00 TX 01 03 00 C8 00 03 84 35\r\n10:00:01 RX 01 03 06 00 80 42 A4 F1 DE B0 F8\r\r\n\n",
     "line one\rline 01 03 00 C8 00 03\rlast",
+    "0000: 01 03 00 C8\n    0004: 00 03 84 35",
+    "0000: 01 03 00 C8\n    0000: 00 03 84 35",
+    "0000: 01 03 00 C8\n    0008: 00 03 84 35",
+    "0000: 01 03 00 C8\n0005: 00 03 84 35",
+    "0000: 01 03 00 C8\n0004",
+    "0000: 01 03 00 C8\n4",
+    "0000: 01 03 00 C8\n0005",
+    "0001: 01 03 00 C8",
+    "0008  01 03 00 C8",
+    "x 0008: 01 03 00 C8",
+    "x 0008  01 03 00 C8",
+    "A 0000: 01\nB 0000: 02\nC 0000: 03\nA 0001: 04\nB 0001: 05\nC 0001: 06",
+    "1, 3, 0, 20,\n0x00, 0x03, 0x84, 0x35",
+    "1, 3, 0, 20,\n0, 3, 13, 53",
+    "1, 3, 0, 20,\n0, 3, 300,\n13, 53",
+    "0x01, 0x03,\n0, 20,\n0x05",
+    "1, 3, 0, 20,\nend, 0, 3",
+    "1, 3, 0, 20, and\n0, 3",
+    "x 1, 3, 0, 20,\n0, 3",
+    "x 0x01, 0x03,\n0x00, 0xC8",
+    "1, 3, //, 4,\n5, 6",
+    "1, 3 # 4,\n5, 6",
+    "1, 3, --x\n5, 6",
+    "http://x 1, 3,\n5, 6",
+    "RX:\n01 03 06 00 80 42 A4 F1\n01 03 06 00 80 42 A4 F1\nDE B0 F8",
+    "RX:\n01 03 06 00 80 42 A4\nF1 DE B0 F8",
+    "RX:\n00 01 02 03 04 05 06 07 08 09 0A 0B 0C 0D 0E 0F 10 11 12 13\n14 15 16 17",
+    "01 03 06 00 80 42 A4 F1\nDE B0 F8",
+    "RX 11:\n01 03 06 00 80 42 A4 F1 DE B0 F8",
+    "RX 12:\n01 03 06 00 80 42 A4 F1 DE B0 F8",
+    "RX 11 bytes, 3:\n01 03 06",
+    "RX\nTX\n01 03 00 C8",
+    "junk:\ntx 01 03 00 C8",
+    "10:00:00 RX\n10:00:01\n01 03 00 C8",
+    "10:00:00 x\n\n01 03 00 C8",
+    "COM1 tx\nCOM2 01 03 00 C8",
+    "COM1 tx\n01 03 00 C8",
+    "one two three four five six tx\n01 03 00 C8",
+    "one two three four five tx\n01 03 00 C8",
+    "01 x\n03 x\n00 x",
+    "x 01\n\nx 03\nx 00\nx C8",
+    "x 01 02\nx 03\nx 00 04 05\nx C8\nx 00 07",
+    "| a | 01 |\n| b | 03 |\n|\n| c | 00 |\n| d | C8 |\n| e |",
+    "| 01 03 00 C8 | x | 02 |\n| 01 03 00 C9 | y | 03 |\n| 01 03 00 CA | z | 04 |\n| 01 03 00 CB | z | 05 |",
+    "x 01\nx 03\nx 00\n01 03 00 C8 00 03\nx C8\nx 00",
+    "a 1\nb 2\nc 3\nd 4\ne 05 06 07 08",
+    "time 10:00:00 a 01\ntime 10:00:01 a 03\ntime 10:00:02 a 00\ntime 10:00:03 a C8",
+    "tx:\nx 01\nx 03\nx 00\nx C8",
+    "ADR 01H CMD 03H\nADR 00H C8H and 00H 03H, 84H 35H end",
+    "ADR 01H, CMD 03H, 00H",
+    "ADR 01H 03H 00H C8H 00H",
 ];
 
 /// What of the text layer comes out of a text.
@@ -577,7 +754,10 @@ fn beginnings() {
         texts.push(lines(&|n| format!("TX 01 03 00 C8 00 {n:02X} 84 35"), count));
         texts.push(lines(&|n| format!("TX 1 3 0 200 0 {n} 132 53"), count));
         texts.push(lines(&|n| format!("{n}.5,0x{n:02X},"), count));
-        texts.push(lines(&|n| format!("{} 01 03 00 C8 00{}", 5 + n, " 03".repeat(n)), count));
+        texts.push(lines(&|n| format!("{:02} 01 03 00 C8 00{}", 5 + n, " 03".repeat(n)), count));
+        texts.push(lines(&|n| format!("{} 1 3 0 200 0{}", 5 + n, " 3".repeat(n)), count));
+        texts.push(lines(&|n| format!("{:02} 01 03 00 C8 00", 5 + n), count));
+        texts.push(lines(&|_| "06 01 03 00 C8 00 03".to_owned(), count));
         texts.push(lines(&|n| format!("> 01 03 00 C8 {n:02X}"), count));
     }
     texts.push(format!("Time [ms],x\n{}", lines(&|n| format!("{n}.5,0x{n:02X}"), 20)));
@@ -593,7 +773,7 @@ fn beginnings() {
             text.len(),
             known.layout.map(|layout| layout.name),
             known.numbers,
-            known.style,
+            known.style.map(text::Style::name),
             known.with_bytes,
             known.telling,
             known.dumped,
@@ -765,6 +945,12 @@ fn what_bytes_could_be() {
         "01 01 05 00 80",
         "01 02 05 00 80",
         "01 03 FA 00 80",
+        "01 01 FA 00 80",
+        "01 01 FB 00 80",
+        "00 03 06 00 80",
+        "00 10 00 C8 00 02 04 00 01",
+        "01 06 00 C8 00 05 00 00",
+        "03 06 00 C8 00 05 00 00",
         "01 03 FC 00 80",
         "01 17 06 00 80",
         "01 05 06 00 80",
@@ -950,13 +1136,131 @@ const CONVERSATIONS: &[&str] = &[
     "10:00:00 COM1 TX: 01 03 00 C8 00 03 84 35\n10:00:01 COM2 TX: 01 03 00 C8 00 03 84 35\n10:00:02 COM1 RX: 01 03 06 00 80 42 A4 F1 DE B0 F8\n10:00:02 COM2 RX: 01 83 02 C0 F1",
     "23:59:59.9 TX: 01 03 00 C8 00 03 84 35\n00:00:00.1 RX: 01 03 06 00 80 42 A4 F1 DE B0 F8",
     "RX: 01 03 06 00 80 42 A4 F1 DE B0 F8\nRX: 01 03 06 00 80 42 A4 F1 DE B0 F8",
+    "so 11 42 01 02 03 ~~",
+    "so 11 42 ~~",
+    "so 11 42 01 ~~ 00",
+    "so 11 42 01 02 ~~ 00 00",
+    "so 11 80 01 02 ~~",
+    "so 11 00 01 02 ~~",
+    "so 01 03 00 C8 00 03 00 ~~",
+    "so 01 03 00 C8 00 ~~",
+    "so 01 03 06 00 80 42 A4 F1 DE ~~ 00",
+    "so 01 03 06 00 80 42 A4 F1 DE 01 ~~",
+    "so FF 01 03 00 C8 00 03 ~~",
+    "so 00 00 01 42 00 C8 ~~",
+    "so 00 01 42 00 C8 ~~",
+    "so FF 01 42 00 C8 00 ~~",
+    "so 00 00 00 01 42 00 C8 ~~",
+    "so 55 01 03 00 C8 00 03 ~~ 66 01 03 06 00 80 42 A4 F1 DE ~~",
+    "tx: 55 01 03 00 C8 00 03 ~~ 66 01 03 06 00 80 42 A4 F1 DE ~~",
+    "tx: 01 03 00 C8 00 03 ~~ 01 03 06 00 80 42",
+    "tx: 01 03 00 C8 00 03 ~~ 01 03 06 00 80 42 00 00 00",
+    "tx: 01 03 00 C8 00 03 ~~ 01 03 06 00 80 42 01 03 00 C8 00 03 ~~",
+    "tx: 01 03 00 C8 00 03 ~~ 02 03 06 00 80 42 01 03 00 C8 00 03 ~~",
+    "tx: 01 03 00 C8 00 03 ~~\nrx: 55 01 03 06 00 80 42 A4 F1 DE ~~",
+    "tx: 01 03 00 C8 00 03 ~~\nrx: 55 01 03 06 00 80 42 A4 F1",
+    "tx: 01 03 00 C8 00 03 ~~\nrx: 01 03 06 00 80\nx 99 98 97 96 y\nrx: 42 A4 F1 DE B0 F8",
+    "tx: 01 03 00 C8 00 03 ~~\nrx: 01 03 06 00 80\nq1 99 98 97 96 y\nq2 99 98 97 95 y\nq3 99 98 97 94 y\nq4 99 98 97 93 y\n\
+     q5 99 98 97 92 y\nq6 99 98 97 91 y\nq7 99 98 97 90 y\nq8 99 98 97 89 y\nrx: 42 A4 F1 DE B0 F8",
+    "tx: 01 03 00 C8 00 03 ~~\nrx: 01 03 06 00 80\nq1 99 98 97 96 y\nq2 99 98 97 95 y\nq3 99 98 97 94 y\nq4 99 98 97 93 y\n\
+     q5 99 98 97 92 y\nq6 99 98 97 91 y\nq7 99 98 97 90 y\nq8 99 98 97 89 y\nq9 99 98 97 88 y\nrx: 42 A4 F1 DE B0 F8",
+    "10:00:00 rx: 01 03 06 00 80\n10:00:01 rx: 42 A4 F1 DE B0 F8",
+    "10:00:00.0 rx: 01 03 06 00 80\n10:00:01.1 rx: 42 A4 F1 DE B0 F8",
+    "10:00:01 rx: 01 03 06 00 80\n10:00:00 rx: 42 A4 F1 DE B0 F8",
+    "rx: 01 03 06 00 80\ntx: 42 A4 F1 DE B0 F8",
+    "rx: 01 03 06 00 80\nx: 42 A4 F1 DE B0 F8",
+    "rx: 01 03 06 00 80\n42 A4 F1 DE B0 F8",
+    "rx: 01 03 06 00 80 42 A4 F1 DE\nrx: B0 F8",
+    "rx: 01 03 06 00 80 42 A4 F1 DE\nthe end is: B0 F8",
+    "rx: 01 03 06 00 80 42 A4 F1 DE\nleftover: B0 F8",
+    "rx: 01 03 06 00 80\nrx: 42 A4 F1 DE B0 F8 01 03 06\nrx: 00 80 42 A4 F1 DE B0 F8",
+    "rx: 00 01 00 00 00 09 01 03\nrx: 06 00 80 42 A4 F1 DE",
+    "rx: 00 01 00 00 00\nrx: 09 01 03 06 00 80 42 A4 F1 DE",
+    "rx: 68 05 05 68 81\nrx: 82 5D 3B 3E D9 16",
+    "rx: 68 05 05\nrx: 68 81 82 5D 3B 3E D9 16",
+    "rx: F8 03 06 00 80\nrx: 42 A4 F1 DE ~~",
+    "tx: 11 42 01 02 ~~\nrx: 11 42 01\nrx: 02 03 04",
+    "so 01 03 00 C8 00 03 ~~\nso 01 03 00 C8 00 03\nso 01 03 00 C8 00 04",
+    "so 01 03 00 C8 00 03 ~~\nso 01 03 00 C9 00 03 ~~\nso 01 03 00 CA 00 03 00 00\nso 77 88 99 AA",
+    "so 01 03 00 C8 00 03 ~~\nso 01 03 00 C9 00 03 ~~\nso F8 88 99 AA",
+    "so 01 03 00 C8 00 03 ~~\nso 01 03 00 C9 00 03 ~~\nso 01 88 99 AA",
+    "so 01 03 00 C8 00 03 ~~\nso 01 03 00 C9 00 03 ~~\nso F8 03 99 AA",
+    "so 01 03 00 C8 00 03 ~~\nso 01 03 00 C9 00 03 ~~\nso 01 03 99 AA ...",
+    "tx 00 01 00 00 00 06 01 03 00 C8 00 03\ntx 00 02 00 00 00 06 01 03 00 C9 00 03\ntx 01 03 99 AA",
+    "so 01 03 00 C8 00 03 ~~ by\nso 01 03 00 C9 00 03 ~~ by\nso 01 10 00 C8 00 02 04 00 01 00 02 by",
+    "so 01 03 00 C8 00 03 ~~\nas 01 03 06 00 80 42 A4 F1 DE ~~\nas 01 03 06 00 80 42 A4 F1 DF ~~\nas 01 03 06 00 80 42 A4 F1 D0",
+    "so 01 03 00 C8 00 03 ~~\nas 01 03 06 00 80 42 A4 F1 DE\nas 01 03 06 00 80 42 A4 F1 DF\nas 01 03 06 00 80 42 A4 F1 D0 ~~",
+    "TX 01 03 00 C8 00 03 ~~\nRX 01 03 06 00 80 42 A4 F1 DE ~~\nas 03 06 00 80 42",
+    "TX 01 03 00 C8 00 03 ~~\nRX 01 03 06 00 80 42 A4 F1 DE ~~\nRX 01 03 06 00 80 42 A4 F1",
+    "TX 01 03 00 C8 00 03 ~~\nRX 01 03 06 00 80 42 A4 F1 DE ~~\nRX 01 03 06 00 80 42 A4 F1 DE 01 03 06 00 80 42 A4 F1 DE B0 x",
+    "TX 01 03 00 C8 00 03 ~~\nTX 01 03 00 C8 00",
+    "TX 01 03 00 C8 00 03 ~~\nTX 01 03 00 C8",
+    "TX 01 03 00 C8 00 03 ~~\nx 01 03 00 C8 00 03 84",
+    "TX 01 06 00 C8 00 03 ~~\nRX 01 06 00 C8 00 03 ~~\nTX 01 06 00 C8 00 04 00 00\nRX 01 06 00 C8 00 04 ~~",
+    "so 63 03 00 C8 00 03 ~~ it\n1\n2\n3\n4\n5\nso 63 03 06 00 80 42 it",
+    "so 63 03 00 C8 00 03 it\nby 63 03 06 00 80 42 A4 F1 DE it",
+    "so 63 03 00 C8 00 03 it\nby 62 03 06 00 80 42 A4 F1 DE it",
+    "so 63 03 00 C8 00 03 it\nby 63 04 06 00 80 42 A4 F1 DE it",
+    "so 63 03 00 C8 00 03 it\nby 63 03 04 00 80 42 A4 it",
+    "COM1 so 63 03 00 C8 00 03 it\nCOM2 by 63 03 06 00 80 42 A4 F1 DE it",
+    "so 63 03 00 C8 00 03 ~~ it\nby 63 83 02 it",
+    "so 63 03 00 C8 00 03 ~~ it\nby 63 83 02 01 it",
+    "by 63 03 06 00 80 42 A4 F1 DE it\nso 63 03 00 C8 00 03 it",
+    "so 41 00 23 00 00 00 00 00 it\nby 71 00 23 00 00 00 00 05 it",
+    "so 41 00 23 00 00 00 00 00 it\nby 71 00 24 00 00 00 00 05 it",
+    "so 41 00 00 00 00 00 00 00 it\nby 71 00 00 00 00 00 00 05 it",
+    "so 00 01 00 00 00 06 63 03 00 C8 00 03 it\nby 00 01 00 00 00 08 63 03 06 00 80 42 A4 F1 DE it",
+    "so 00 01 00 00 00 06 63 03 00 C8 00 03 it\nby 00 02 00 00 00 08 63 03 06 00 80 42 A4 F1 DE it",
+    "so 10 5B 0A 65 16 it\nso 10 01 02 49 4C 16 it\nso 10 01 02 4A 4D 16 it",
+    "so 10 5B 0A 65 16 it\nso 10 5B 0B 66 16 it\nso 10 01 02 49 4C 16 it",
+    "so 0x63, 0x03, 0x00, 0xC8, 0x00, 0x03 it\nby 0x63, 0x03, 0x06, 0x00, 0x80, 0x42, 0xA4, 0xF1, 0xDE it",
+    "63 03 00 C8 00 03\n63 03 06 00 80 42 A4 F1 DE\n11 22 33 44\nhello",
+    "63 03 00 C8 00 03\n63 03 06 00 80 42 A4 F1 DE\n11 22 33 44\n55 66 77\n88 99 AA",
+    "hello\nyou\n63 03 00 C8 00 03",
+    "03 00 C8 00 03\n03 06 00 80 42 A4 F1 DE\n03 00 C8 00 03\n03 06 00 80 42 A4 F1 D0",
+    "03 00 C8 00 03\n01 03 00 C8 00 03 ~~",
+    "B7 A3 93\n00 0C 00 02 05 EB\n88 01 0A 0B 05 EB 00",
+    "41 00 23 00 00 00 00 00\n71 00 23 00 00 00 00 05\n41 00 23 01 00 00 00 00\n71 00 23 01 00 00 00 06",
+    "52 00 23 00 00 05 00 00\n52 00 23 00 00 05 00 00\n12 00 23 01 00 06 00 00\n12 00 23 01 00 06 00 00",
+    "41 00 23 00 00 00 00 00\nC1 00 23 00 06 03 00 00",
+    "x 01 03 00 C8 00 03 ~~ y\n| 01 | 01 |\n| 03 | 03 |\n| 00 | 00 |\n| C8 | C9 |\n| 00 | 00 |\n| 03 | 03 |\n| 84 | D5 |\n| 35 | F5 |",
+    "| 01 | 01 |\n| 03 | 03 |\n| 00 | 06 |\n| C8 | 00 |\n| 00 | 80 |\n| 03 | 42 |\n| z | A4 |\n| z | F1 |\n| z | DE |",
 ];
+
+/// Puts the check of the bytes before it where `~~` stands.
+fn checked(text: &str) -> String {
+    let mut whole = String::new();
+    for (index, part) in text.split("~~").enumerate() {
+        if index > 0 {
+            let line = whole.rsplit('\n').next().unwrap_or_default();
+            let is_byte = |word: &&str| word.len() == 2 && word.bytes().all(|c| c.is_ascii_hexdigit());
+            let mut words: Vec<&str> =
+                line.split(' ').filter(|word| !word.is_empty()).rev().take_while(is_byte).collect();
+            words.reverse();
+            // What stands behind another check is a telegram of its own.
+            let own = bytes(&words.join(" "));
+            let from = (0..own.len())
+                .rev()
+                .find(|at| {
+                    *at >= 4
+                        && CRC_16_MODBUS.wire(&own[..at - 2])
+                            == u64::from(u16::from_be_bytes([own[at - 2], own[at - 1]]))
+                })
+                .unwrap_or(0);
+            let check = CRC_16_MODBUS.wire(&own[from..]) as u16;
+            write!(whole, "{}", hex(&check.to_be_bytes())).unwrap();
+        }
+        whole += part;
+    }
+    whole
+}
 
 /// The telegrams of small texts, with all that is known of each.
 #[test]
 fn what_is_found_in_texts() {
     let mut table = String::new();
     for text in CONVERSATIONS.iter().chain(SPELLINGS).chain(SURROUNDINGS).chain(BLOCKS) {
+        let text = checked(text);
         writeln!(table, "{}", text.escape_debug()).unwrap();
         found(&mut table, text.as_bytes());
     }
@@ -1132,6 +1436,21 @@ fn causes_of_damage() {
         ("modbus-rtu", "01 03 06 80 00 A4 42 DE F1 B0 F8"),
         ("modbus-rtu", "01 03 06 00 80 42 A4"),
         ("modbus-rtu", "01 83 02 F1 C0"),
+        ("modbus-rtu", "01 03 0C 08 00 03 84 35"),
+        ("modbus-rtu", "00 13 00 C8 00 03 84 35"),
+        ("modbus-rtu", "10 03 00 C8 00 03 84 35"),
+        ("modbus-rtu", "03 01 00 C8 00 03 84 35"),
+        ("modbus-rtu", "01 03 00 C8 03 00 84 35"),
+        ("modbus-rtu", "01 03 00 0C 00 03 84 35"),
+        ("modbus-rtu", "01 03 00 80 00 38 43"),
+        ("modbus-rtu", "01 03 00 C8 00 03 84 35 01 03 00 C8 00 03 84 35"),
+        ("modbus-rtu", "01 03 06 00 80 42 A4 F1 DE B0"),
+        ("modbus-rtu", "01 03 06 00 80 A4 F1 DE B0 F8"),
+        ("modbus-rtu", "01 03 06 42 A4 F1 DE B0 F8"),
+        ("modbus-rtu", "01 03 06 00 80 42 A4 F1 DE"),
+        ("modbus-rtu", "01 03 06 00 80 42 A4 F1 DE BE EF 00"),
+        ("modbus-rtu", "00 01 00 00 00 06 01 03 00 C8 00 03"),
+        ("modbus-rtu", "01 03 00 C8 00 03 31"),
         ("modbus-rtu", "01 03 00 C8 00 03 31"),
         ("modbus-rtu", "01 03"),
         ("modbus-ascii", "01 03 00 C8 00 03 32"),
@@ -1409,4 +1728,79 @@ fn encodings_and_others() {
         writeln!(table, "{line} | {}", known.join(", ")).unwrap();
     }
     assert_table("encodings", &table);
+}
+
+/// Texts that are longer than what is read at once: the pieces in short.
+#[test]
+fn long_texts() {
+    let mut table = String::new();
+    let rows = |count: usize, row: &str| format!("{row}\n").repeat(count);
+    let bytes = |count: usize, parted: &str| vec!["5A"; count].join(parted);
+    for (name, text) in [
+        ("a line of 65,536 characters", "x".repeat(1 << 16)),
+        ("65,537 characters and bytes", "x".repeat((1 << 16) + 1) + " 01 03 00 C8 00 03"),
+        ("30,000 bytes in a line", bytes(30_000, " ")),
+        ("30,000 bytes in a line with a time", format!("10:00:00 tx: {}", bytes(30_000, " "))),
+        ("60,000 bytes without blanks", bytes(60_000, "")),
+        ("30,000 bytes with colons, and a line", bytes(30_000, ":") + "\n01 03 00 C8\n"),
+        ("a list of 4,096 bytes", rows(256, "1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16,")),
+        ("a list of 4,112 bytes", rows(257, "1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16,")),
+        ("a list of 8,300 bytes", rows(519, "1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16,")),
+        ("600 lines of a column", rows(600, "x 5A")),
+        ("601 lines of a column", rows(601, "x 5A")),
+        ("605 lines of a column", rows(605, "x 5A")),
+        ("8 numbers in a row", rows(5, "a 1 b 2 c 3 d 4 e 5 f 6 g 7 h 8")),
+        ("9 numbers in a row", rows(5, "q 1 r 2 s 3 t 4 u 5 v 6 w 7 x 8 y 9")),
+        (
+            "70 numbers in a line, the last tells the length",
+            format!("{} 8: 01 03 00 C8 00 03 84 35", "x 9 ".repeat(70)),
+        ),
+        ("a number far away tells the length", format!("8 {}: 01 03 00 C8 00 03 84 35", "x 9 ".repeat(40))),
+        (
+            "a number not so far away tells the length",
+            format!("8 {}: 01 03 00 C8 00 03 84 35", "x 9 ".repeat(20)),
+        ),
+        (
+            "many breaks",
+            (0..14)
+                .map(|n| format!("5A{}5B 5C 5D", [",", ";", "|", "/"][n % 4]))
+                .collect::<Vec<_>>()
+                .join(" "),
+        ),
+        ("far behind an ellipsis", format!("01 03 00 C8 00 03 {} …", "z".repeat(35))),
+        ("too far behind for an ellipsis", format!("01 03 00 C8 00 03 {} …", "z".repeat(45))),
+        ("between bytes too much", format!("01 03{}00 C8 00 03", " ".repeat(24))),
+        ("between bytes more than too much", format!("01 03{}00 C8 00 03", " ".repeat(25))),
+    ] {
+        let mut told: Vec<String> = Vec::new();
+        let mut tell = |event: Event<'_>| match event {
+            Event::Piece(piece) => told.push(
+                format!(
+                    "{} at {}: {} bytes{}{}{}{}",
+                    piece.line,
+                    piece.offset,
+                    piece.bytes.len(),
+                    if piece.joins { ", joins" } else { "" },
+                    if piece.time.is_some() { ", with time" } else { "" },
+                    if piece.sender.is_some() { ", said" } else { "" },
+                    if piece.breaks.is_empty() {
+                        String::new()
+                    } else {
+                        format!(", breaks {:?}", piece.breaks)
+                    }
+                ) + &facts(&piece.facts).iter().map(|fact| format!(" {fact}")).collect::<String>(),
+            ),
+            Event::Unread { line, offset } => told.push(format!("unread {line} at {offset}")),
+        };
+        let mut reader = Reader::new(Form::default());
+        for part in text.as_bytes().chunks(1000) {
+            reader.push(part, &mut tell);
+        }
+        reader.finish(&mut tell);
+        let lines = reader.lines();
+        let count = told.len();
+        told.truncate(8);
+        writeln!(table, "{name}: {lines} lines, {count} pieces: {}", told.join("; ")).unwrap();
+    }
+    assert_table("long_texts", &table);
 }

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use buslens::dialogue::traffic::{Chunk, Hint, Role, Traffic, statistics};
-use buslens::field::{Direction, hex};
+use buslens::field::{Direction, Facts, hex};
 use buslens::frame::Settings;
 use buslens::tool::Protocol;
 
@@ -11,6 +11,7 @@ use super::{assert_table, bytes};
 
 const ASKS: &str = "01 03 00 C8 00 03 84 35";
 const ANSWERS: &str = "01 03 06 00 80 42 A4 F1 DE B0 F8";
+const ANSWERS_2: &str = "01 03 06 00 80 40 F0 00 00 B9 4F";
 const ANSWERS_TOO: &str = "01 03 06 00 80 00 00 00 00 1D 67";
 
 /// How the chunks of a case come.
@@ -37,7 +38,11 @@ fn told(table: &mut String, way: Way, protocol: &str, chunks: &str) {
     let mut offset = 0;
     for chunk in chunks.split(" / ") {
         let (head, text) = chunk.split_once(": ").unwrap_or(("", chunk));
-        let text = text.replace("ASKS", ASKS).replace("ANSWERS_TOO", ANSWERS_TOO).replace("ANSWERS", ANSWERS);
+        let text = text
+            .replace("ANSWERS_2", ANSWERS_2)
+            .replace("ASKS", ASKS)
+            .replace("ANSWERS_TOO", ANSWERS_TOO)
+            .replace("ANSWERS", ANSWERS);
         let bytes: Vec<u8> = text
             .split(' ')
             .filter(|part| !part.is_empty())
@@ -68,8 +73,10 @@ fn told(table: &mut String, way: Way, protocol: &str, chunks: &str) {
     }
     traffic.untyped();
     traffic.finish();
-    writeln!(table, "{chunks}").unwrap();
-    for entry in traffic.entries() {
+    /// So many say what all of them would.
+    const MOST: usize = 12;
+    writeln!(table, "{}", chunks.chars().take(400).collect::<String>()).unwrap();
+    for entry in traffic.entries().iter().take(MOST) {
         let own = traffic.entries().kept(&entry).unwrap();
         let bytes = match own.len() {
             0..=40 => hex(own),
@@ -151,8 +158,38 @@ fn told(table: &mut String, way: Way, protocol: &str, chunks: &str) {
 }
 
 #[test]
+fn other_protocols_are_counted() {
+    let mut table = String::new();
+    let mut traffic = Traffic::new(Protocol::of("modbus-rtu").unwrap(), &Settings::default());
+    for text in ["10 5B 0A 65 16", "AA 55 01 00 00 0B 11 04 00 01 20"] {
+        let chunk = Chunk { bytes: &bytes(text), facts: Some(Facts::default()), ..Chunk::default() };
+        traffic.take(chunk);
+    }
+    traffic.untyped();
+    traffic.finish();
+    writeln!(table, "{:?}", traffic.foreign_protocols()).unwrap();
+    assert_table("other_protocols", &table);
+}
+
+#[test]
 fn streams_and_connections() {
     let mut table = String::new();
+    // What is ambiguous by itself is told by what comes behind it, once there is enough.
+    for (pause, other) in [(0.1, 0.001), (0.001, 0.1)] {
+        let exchange = |n: usize| {
+            let time = n as f64;
+            format!(
+                "{time}: 06 04 22 07 00 01 8B C4 / {}: 06 04 02 00 40 0D / {}: 00",
+                time + pause,
+                time + pause + other
+            )
+        };
+        let many: Vec<String> = (0..40).map(exchange).collect();
+        told(&mut table, Way::Flow, "modbus-rtu", &many.join(" / "));
+        let alone: Vec<String> =
+            (0..100).map(|n| format!("{n}: 06 04 02 00 40 0D / {}: 00", n as f64 + other)).collect();
+        told(&mut table, Way::Flow, "modbus-rtu", &alone.join(" / "));
+    }
     for (way, protocol, cases) in [
         (
             Way::Stream,
@@ -229,6 +266,44 @@ fn streams_and_connections() {
                 "01 03 00 C8 00 03 00x1100",
                 "11 42 01 02 03 5D 21 / 11 42 01 02 03 5D 21",
                 "11 42 01 02 03 5D 21 / 11 42 01 02 03 5D 21 / 11 42 09 09 09 D7 E7",
+                "01 03 00 C8 00 03 00x1018",
+                "01 03 00 C8 00 03 00x1019",
+                "> 0: ASKS / > 1: 01 05 00 C8 FF 00 0D C4",
+                "< 0: ASKS / < 1: 01 05 00 C8 FF 00 0D C4",
+                "> 0: ANSWERS / > 1: 01 05 00 C8 FF 00 0D C4 / < 2: 01 05 00 C8 FF 00 0D C4",
+                "> 0: ASKS / < 1: ASKS / > 2: 01 05 00 C8 FF 00 0D C4",
+                "> 0: ASKS / < 1: ASKS / < 2: ASKS / < 3: 01 05 00 C8 FF 00 0D C4",
+                "> 0: ASKS / < 1: ASKS / < 2: ASKS / < 3: ASKS / < 4: 01 05 00 C8 FF 00 0D C4",
+                "! 0: ASKS / ? 1: ANSWERS",
+                "0: ASKS / 1: ASKS / 2: ANSWERS / 3: ANSWERS / 4: ASKS / 5: ANSWERS",
+                "0: ASKS / 1: ANSWERS / 2: ANSWERS / 3: ASKS / 4: ANSWERS_2 / 5: ANSWERS_2",
+                "0: ASKS / 1: ANSWERS / 2: ANSWERS / 2.1: ANSWERS / 3: ASKS / 4: ANSWERS_2 / 5: ANSWERS_2",
+                "p0 0: ASKS / p1 0.1: ASKS / p1 0.2: ANSWERS / p0 0.3: ANSWERS / p0 1: ASKS / p1 1.1: ASKS",
+                "0: 01 03 06 00 80 42 A4 F1 DE B0 F9 / 1: ANSWERS",
+                "0: ASKS / 1: 01 03 06 00 80 42 A4 F1 DE B0 F9 / 2: ANSWERS",
+                "0: ASKS / 1: ASKS / 2: 01 03 00 C9 00 03 D5 F5 / 3: ANSWERS",
+                "0: 01 03 00 C9 00 03 D5 F5 / 1: ASKS / 2: ANSWERS / 3: ANSWERS",
+                "0: 02 03 00 C8 00 03 84 06 / 1: 03 03 00 C8 00 03 85 D7 / 2: 04 03 00 C8 00 03 84 60 / 3: 05 03 00 C8 00 03 85 B1 / \
+                 4: 06 03 00 C8 00 03 85 82 / 5: 07 03 00 C8 00 03 84 53 / 6: 08 03 00 C8 00 03 84 AC / 7: ASKS / \
+                 8: 09 03 00 C8 00 03 85 7D / 9: ANSWERS",
+                "0: ASKS / 1: 02 03 00 C8 00 03 84 06 / 2: 03 03 00 C8 00 03 85 D7 / 3: 04 03 00 C8 00 03 84 60 / \
+                 4: 05 03 00 C8 00 03 85 B1 / 5: 06 03 00 C8 00 03 85 82 / 6: 07 03 00 C8 00 03 84 53 / 7: 08 03 00 C8 00 03 84 AC / \
+                 8: ANSWERS",
+                "0: ASKS / 1: 02 03 00 C8 00 03 84 06 / 2: 03 03 00 C8 00 03 85 D7 / 3: 04 03 00 C8 00 03 84 60 / \
+                 4: 05 03 00 C8 00 03 85 B1 / 5: 06 03 00 C8 00 03 85 82 / 6: 07 03 00 C8 00 03 84 53 / 7: 08 03 00 C8 00 03 84 AC / \
+                 8: 09 03 00 C8 00 03 85 7D / 9: ANSWERS",
+                "0: 02 03 00 C8 00 03 84 06 / 1: 02 03 00 C9 00 03 D5 C6 / 2: 02 03 00 CA 00 03 25 C6 / 3: 02 03 00 CB 00 03 74 06 / \
+                 4: 02 03 00 CC 00 03 C5 C7 / 14: ASKS / 14.02: ANSWERS",
+                "0: 02 03 00 C8 00 03 84 06 / 1: 02 03 00 C9 00 03 D5 C6 / 2: 02 03 00 CA 00 03 25 C6 / 3: 02 03 00 CB 00 03 74 06 / \
+                 4: 02 03 00 CC 00 03 C5 C7 / 11: ASKS / 12: ANSWERS",
+                "0: 02 03 00 C8 00 03 84 06 / 1: 02 03 00 C9 00 03 D5 C6 / 2: 02 03 00 CA 00 03 25 C6 / 3: 02 03 00 CB 00 03 74 06 / \
+                 100: ASKS / 100.02: ANSWERS",
+                "0: 02 03 00 C8 00 03 84 06 / 50: 02 03 00 C9 00 03 D5 C6 / 51: 02 03 00 CA 00 03 25 C6 / 52: 02 03 00 CB 00 03 74 06 / \
+                 53: 02 03 00 CC 00 03 C5 C7 / 54: 02 03 00 C8 00 03 84 06 / 55: 02 03 00 C9 00 03 D5 C6 / 100: ASKS / 100.02: ANSWERS",
+                "+ 0: ASKS / + 0.1: ANSWERS",
+                "0: 01 03 00 / + 0.4: C8 00 / + 1.9: 03 84 / + 2: 35",
+                "> 0: 01 03 00 C8 / < + 0.1: 00 03 84 35",
+                "01 03 06 00 80 42 A4 F1 DE B0 F8 / 01 03 06 00 80 42 A4 F1 DE B0 F8 55",
             ],
         ),
         (
@@ -242,6 +317,10 @@ fn streams_and_connections() {
                 "> 0: 01 03 00 C8 / < 0.1: 00 03 84 35",
                 "> 0: 01 03 00 C8 00 03 84 35 / < 0.1: 01 03 06 00 / < 0.2: 80 42 A4 F1 / < 0.9: DE B0 F8",
                 "0: FF / 0.1: 01 03 00 C8 00 03 84 35",
+                "0: 06 04 02 07 00 01 / 0.1: 81 B7 / 0.2: 06 04 02 00 40 0D 00",
+                "0: 06 04 22 07 00 01 8B C4 / 0.1: 06 04 02 00 40 0D 00",
+                "0: 06 04 02 00 40 0D / 0.5: 00",
+                "0: 55 06 04 22 07 00 01 8B C4 / 0.1: 06 04 02 00 40 0D 00",
             ],
         ),
         (
@@ -260,6 +339,18 @@ fn streams_and_connections() {
                 "? 0: 47x4000 / ? 1: 47x200 / ! 2: 48x10",
                 "? 0: 47x4096 / ? 1: 00 01 00 00 00 06 01 03 00 C8 00 03",
                 "? 0: 47x4097 / ? 1: 00 01 00 00 00 06 01 03 00 C8 00 03",
+                "? 0: 00 01 00 00 00 06 01 03 00 C8 00 03 / ? 1: 00 02 00 00 00 06 / ? 2: 01 03 00 / ? 3: C8 00 03 00 03 00 00 00 06 / \
+                 ? 4: 01 03 00 C8 00 03",
+                "? 0: 00 01 00 00 00 06 01 03 00 C8 00 03 / ? 1: 00 02 00 00 00 0F 01 03 00 C8 00 03 / ? 2: 00 03 00 00 00 06 01 03 00 C8 00 03 / \
+                 ? 3: 00 04 00 00 00 06 01 03 00 C8 00 03",
+                "? 0: 00 01 00 00 00 06 01 03 00 C8 00 03 / ? 1: 00 02 00 00 00 0F 01 03 00 C8 00 03 00 03 00 00 / ? 2: 00 06 01 03 00 C8 00 03",
+                "? 0: 01 03 00 C8 / ? 1: 00 03 84 35 / ! 2: ANSWERS",
+                "? 0: 55 AA / ? 1: ASKS / ! 2: ANSWERS",
+                "! 0: 00 01 00 00 00 09 01 03 06 00 80 42 A4 F1 DE / ? 1: 00 02 / ? 2: 00 00 00 06 01 03 00 C8 00 03",
+                "? 0: 00 02 / ! 1: 00 01 00 00 00 09 01 03 06 00 80 42 A4 F1 DE / ? 2: 00 00 00 06 01 03 00 C8 00 03",
+                "? 0: 00 02 / ! 1: 00 01 00 00 00 09 01 03 06 00 80 42 A4 F1 DE",
+                "? 0: 00 01 00 00 00 06 01 01 00 C8 00 03",
+                "? 0: 00 01 00 00 00 06 01 03 00 C8 00 99",
                 "? 0: 00 01 00 00 00 07 01 03 00 C8 00 03 / ? 1: 00 02 00 00 00 06 01 03 00 C8 00 03",
                 "known ? 0: 00 01 00 00 00 06 01 03 00 C8 00 03 / known ? 1: 00 02 00 00 00 09 01 03 00 C8 00 03 / \
                  known ? 2: 00 03 00 00 00 06 01 03 00 C8 00 03",

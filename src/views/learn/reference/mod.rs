@@ -1,8 +1,340 @@
 //! Reference: registers, parameters, codes and telegrams, to look up.
 
+mod diagram;
+mod entry;
+mod table;
+mod topic;
+
+use std::sync::{Arc, LazyLock};
+
+use leptos::html;
 use leptos::prelude::*;
+
+use super::state::{LearnState, Part};
+use crate::address::{View, href};
+use crate::components::icon::{Glyph, Icon};
+use buslens::field::count;
+use buslens::tool::link::Link;
+use buslens::tool::reference::{About, Book, Chapter, Item, find, items};
+use entry::Entry;
+use table::Table;
+use topic::TopicPage;
+
+/// Everything that can be looked up.
+static ITEMS: LazyLock<Vec<Arc<Item>>> = LazyLock::new(items);
+
+/// What is looked at, as it stands in links: book, chapter, item, and what is typed.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Place {
+    /// `None` for all of them.
+    chapter: Option<(Book, Chapter)>,
+    /// The key of what is open.
+    item: String,
+    typed: String,
+}
+
+impl Place {
+    fn of(place: &str) -> Self {
+        let mut parts = place.splitn(4, '.');
+        let mut next = || parts.next().unwrap_or_default();
+        let chapter = Book::of(next()).zip(Chapter::of(next()));
+        Self { chapter, item: next().to_owned(), typed: next().to_owned() }
+    }
+
+    fn text(&self) -> String {
+        let (book, chapter) = self.chapter.map_or(("", ""), |(book, chapter)| (book.key(), chapter.key()));
+        let Self { item, typed, .. } = self;
+        let place = format!("{book}.{chapter}.{item}.{typed}");
+        if typed.is_empty() { place.trim_end_matches('.').to_owned() } else { place }
+    }
+
+    fn in_chapter(book: Book, chapter: Chapter) -> Self {
+        Self { chapter: Some((book, chapter)), ..Self::default() }
+    }
+
+    /// The address of it.
+    fn href(&self) -> String {
+        href(
+            View::Learn,
+            &Link { place: format!("{}.{}", Part::Reference.key(), self.text()), ..Link::default() },
+        )
+    }
+
+    /// What there is to choose from.
+    fn found(&self) -> Vec<Arc<Item>> {
+        let within =
+            |item: &&Arc<Item>| self.chapter.is_none_or(|chapter| chapter == (item.book, item.chapter));
+        match self.chapter {
+            None => find(&ITEMS, &self.typed),
+            Some(_) => find(&ITEMS.iter().filter(within).cloned().collect::<Vec<_>>(), &self.typed),
+        }
+    }
+
+    /// What is open.
+    fn open(&self) -> Option<Arc<Item>> {
+        if self.item.is_empty() {
+            return None;
+        }
+        let (book, chapter) = self.chapter?;
+        let of = |item: &&Arc<Item>| (item.book, item.chapter) == (book, chapter);
+        let mut all = ITEMS.iter().filter(of);
+        let listed = all.find(|item| item.key == self.item).cloned();
+        // Of a range, the address that was typed stands in the link.
+        listed.or_else(|| {
+            let within: Vec<Arc<Item>> = ITEMS.iter().filter(of).cloned().collect();
+            find(&within, &self.item).into_iter().find(|item| item.key == self.item)
+        })
+    }
+}
+
+/// The place of an item, with what was typed to find it.
+fn place_of(item: &Item, typed: &str) -> Place {
+    Place { chapter: Some((item.book, item.chapter)), item: item.key.clone(), typed: typed.to_owned() }
+}
+
+/// What an item is about, in a few words.
+fn about(item: &Item) -> String {
+    match &item.about {
+        About::Telegram(topic) => topic.code.clone(),
+        About::Register(register) => register.kind.clone(),
+        About::Code(code) => code.of.clone(),
+    }
+}
 
 #[component]
 pub fn Reference() -> impl IntoView {
-    view! { <section aria-label="Reference"></section> }
+    let state = expect_context::<LearnState>();
+    let place = Memo::new(move |_| Place::of(&state.place(Part::Reference)));
+    let chapter = Memo::new(move |_| place.with(|place| place.chapter));
+    let typed = Memo::new(move |_| place.with(|place| place.typed.clone()));
+    let open = Memo::new(move |_| place.with(Place::open).map(ByKey));
+    let found = Memo::new(move |_| {
+        let (chapter, typed) = (chapter.get(), typed.get());
+        Found(Place { chapter, typed, item: String::new() }.found())
+    });
+    let field = NodeRef::<html::Input>::new();
+    let on_input = move |event| {
+        let typed = event_target_value(&event);
+        // What is open is no longer what is looked for.
+        let to = Place { typed, item: String::new(), ..place.get_untracked() };
+        state.type_to(Part::Reference, to.text());
+    };
+    // How far the search reaches, and what there is besides.
+    let elsewhere = Memo::new(move |_| match (chapter.get(), typed.get()) {
+        (Some(_), typed) if !typed.trim().is_empty() => {
+            find(&ITEMS, &typed).len().saturating_sub(found.with(|found| found.0.len()))
+        }
+        _ => 0,
+    });
+    let everywhere = move |_| {
+        let to = Place { typed: typed.get_untracked(), ..Place::default() };
+        state.go_to(Part::Reference, to.text());
+    };
+    let topic = Memo::new(move |_| open.get().filter(|open| matches!(open.0.about, About::Telegram(_))));
+    let is_start = move || chapter.get().is_none() && typed.with(|typed| typed.trim().is_empty());
+    let content = move || {
+        if let Some(ByKey(item)) = topic.get() {
+            return view! { <TopicPage item /> }.into_any();
+        }
+        if is_start() {
+            return view! { <Start /> }.into_any();
+        }
+        let chosen = Signal::derive(move || open.get().map(|open| open.0));
+        let on_choose = Callback::new(move |item: Arc<Item>| {
+            let chapter = chapter.get_untracked();
+            let is_topic = matches!(item.about, About::Telegram(_));
+            // A telegram has a page of its own; what else is found in all of it stays among what was found.
+            let to = place_of(&item, &typed.get_untracked());
+            let to = if is_topic || chapter.is_some() { to } else { Place { chapter: to.chapter, ..to } };
+            state.go_to(Part::Reference, to.text());
+        });
+        let rows = Signal::derive(move || found.get().0);
+        let with_book = Signal::derive(move || chapter.get().is_none());
+        view! {
+            <div class="looked-up">
+                <Table rows chosen with_book on_choose />
+                <Entry item=chosen />
+            </div>
+        }
+        .into_any()
+    };
+    let number = move || match is_start() {
+        true => String::new(),
+        false => count(found.with(|found| found.0.len()), "entry").replace("entrys", "entries"),
+    };
+    view! {
+        <section class="reference" aria-label="Reference">
+            <Contents chapter />
+            <div class="content">
+                <div class="tools" role="search" aria-label="Reference">
+                    <label class="search">
+                        <Icon glyph=Glyph::Search />
+                        <span class="unseen">"Look up: a name, a number, a text of the display"</span>
+                        <input
+                            node_ref=field
+                            type="search"
+                            autocomplete="off"
+                            spellcheck="false"
+                            placeholder="A name or a number: set speed, 2034h, 40216, exception 66, E.bcc"
+                            prop:value=move || typed.get()
+                            on:input=on_input
+                        />
+                    </label>
+                    <span class="end" role="status">
+                        {number}
+                        <Show when=move || { elsewhere.get() > 0 }>
+                            <button type="button" class="link" on:click=everywhere>
+                                {move || format!("{} more in all of the reference", elsewhere.get())}
+                            </button>
+                        </Show>
+                    </span>
+                </div>
+                {content}
+            </div>
+        </section>
+    }
+}
+
+/// What was found, the same as long as it is the same things.
+#[derive(Clone)]
+struct Found(Vec<Arc<Item>>);
+
+impl PartialEq for Found {
+    fn eq(&self, other: &Self) -> bool {
+        self.0.len() == other.0.len()
+            && self.0.iter().zip(&other.0).all(|(one, other)| Arc::ptr_eq(one, other))
+    }
+}
+
+/// An item, the same as long as its key is.
+#[derive(Clone)]
+struct ByKey(Arc<Item>);
+
+impl PartialEq for ByKey {
+    fn eq(&self, other: &Self) -> bool {
+        let key = |item: &Item| (item.book, item.chapter, item.key.clone());
+        key(&self.0) == key(&other.0)
+    }
+}
+
+/// The chapters, book by book.
+#[component]
+fn Contents(chapter: Memo<Option<(Book, Chapter)>>) -> impl IntoView {
+    let of_book = |book: Book| {
+        let link = |own: Chapter| {
+            let is_here = move || (chapter.get() == Some((book, own))).then_some("true");
+            view! {
+                <li>
+                    <a href=Place::in_chapter(book, own).href() aria-current=is_here>
+                        {own.label(book)}
+                    </a>
+                </li>
+            }
+        };
+        view! {
+            <li>
+                <span class="book">{book.label()}</span>
+                <ul>{book.chapters().map(link).into_iter().collect_view()}</ul>
+            </li>
+        }
+    };
+    view! {
+        <nav class="contents" aria-label="Contents of the reference">
+            <ul>
+                <li>
+                    <a href=Place::default().href() aria-current=move || chapter.get().is_none().then_some("true")>
+                        "Everything"
+                    </a>
+                </li>
+                {Book::all().into_iter().map(of_book).collect_view()}
+            </ul>
+        </nav>
+    }
+}
+
+/// Where nobody looked for anything yet: what there is, and what can be typed.
+#[component]
+fn Start() -> impl IntoView {
+    let of_book = |book: Book| {
+        let chapter = |chapter: Chapter| {
+            let all = ITEMS.iter().filter(|item| (item.book, item.chapter) == (book, chapter)).count();
+            view! {
+                <li>
+                    <a href=Place::in_chapter(book, chapter).href()>{chapter.label(book)}</a>
+                    <span class="number">{all}</span>
+                </li>
+            }
+        };
+        let source = match book {
+            Book::Modbus => "Modbus application protocol V1.1b3",
+            Book::Profibus => "EN 50170, volume 2",
+            Book::Device(profile) => profile.source,
+        };
+        view! {
+            <li>
+                <h4>{book.label()}</h4>
+                <p class="note">{source}</p>
+                <ul>{book.chapters().map(chapter).into_iter().collect_view()}</ul>
+            </li>
+        }
+    };
+    let examples = [
+        ("set speed", "a name, or a part of one"),
+        ("Sy.52", "the short name that a maker gives it"),
+        ("2034h", "an address, also as 0x2034, 8244 or 48245"),
+        ("exception 66", "a code"),
+        ("E.bcc", "what a display shows"),
+        ("function 16", "a telegram"),
+    ];
+    let example = |(typed, about): (&str, &'static str)| {
+        let place = Place { typed: typed.to_owned(), ..Place::default() };
+        view! {
+            <li>
+                <a href=place.href()>
+                    <code>{typed.to_owned()}</code>
+                </a>
+                <span class="soft">{about}</span>
+            </li>
+        }
+    };
+    view! {
+        <div class="reference-start">
+            <section aria-labelledby="what-can-be-typed">
+                <h3 id="what-can-be-typed">"What can be typed above"</h3>
+                <ul class="typed">{examples.map(example).into_iter().collect_view()}</ul>
+            </section>
+            <section aria-labelledby="what-there-is">
+                <h3 id="what-there-is">"What there is"</h3>
+                <ul class="books">{Book::all().into_iter().map(of_book).collect_view()}</ul>
+            </section>
+        </div>
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_leads_back() {
+        for place in
+            ["", "modbus.telegrams", "modbus.telegrams.16", "keb-f5-modbus.registers..fb.05", "...set speed"]
+        {
+            assert_eq!(Place::of(place).text(), place);
+        }
+        assert_eq!(Place::of("modbus.telegrams.16").open().unwrap().label, "Write multiple registers");
+        assert_eq!(
+            Place::of("keb-f5-modbus.registers.2050h").open().unwrap().label,
+            "Inverter parameter 0050h"
+        );
+        assert!(Place::of("nothing.at.all").open().is_none());
+    }
+
+    #[test]
+    fn every_item_is_opened_by_its_place() {
+        for item in ITEMS.iter() {
+            let open = place_of(item, "").open().unwrap();
+            assert_eq!((&open.label, &open.number), (&item.label, &item.number));
+        }
+    }
 }

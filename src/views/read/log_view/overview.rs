@@ -116,7 +116,7 @@ fn said(unit: &Unit) -> String {
 #[component]
 fn Findings() -> impl IntoView {
     let log = expect_context::<ReadState>().log;
-    let story = move || log.overview.with(|it| it.as_ref().map_or(Vec::new(), |it| it.story.clone()));
+    let remarks = move || log.overview.with(|it| it.as_ref().map_or(Vec::new(), |it| it.remarks.clone()));
     let finding = move |(index, found): (usize, Found)| {
         // The first sentence says what it is, the others what to do.
         let (what, advice) = match found.text.split_once(". ") {
@@ -150,9 +150,8 @@ fn Findings() -> impl IntoView {
     move || {
         let findings = log.findings.get();
         if findings.is_empty() {
-            // Nothing is wrong that has a name: the sentences of the story are what there is to say.
-            let sentences: Vec<_> =
-                story().into_iter().skip(1).map(|text| view! { <li>{text}</li> }).collect();
+            // Nothing is wrong that has a name; the units are told beside it.
+            let sentences: Vec<_> = remarks().into_iter().map(|text| view! { <li>{text}</li> }).collect();
             return view! { <ul class="findings none note">{sentences}</ul> }.into_any();
         }
         let findings = findings.into_iter().enumerate().map(finding).collect_view();

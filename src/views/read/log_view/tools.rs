@@ -1,4 +1,4 @@
-//! What is needed now and then: units and functions as a table, a register over time, lines without bytes,
+//! What is needed now and then: units and functions as a table, a register over time, unread lines,
 //! and how lines are to be read.
 
 use leptos::ev::SubmitEvent;
@@ -89,7 +89,7 @@ fn Units() -> impl IntoView {
         "Answered",
         "Unanswered",
         "Retries",
-        "Refused",
+        "Rejected",
         "Damaged",
         "Usually",
         "At worst",
@@ -259,7 +259,9 @@ fn UnreadLines() -> impl IntoView {
     move || {
         let unread = log.unread.get()?;
         if unread.lines.is_empty() {
-            return Some(view! { <p class="note">"Every line has bytes."</p> }.into_any());
+            return Some(
+                view! { <p class="note">"No line is left over: all of them were read."</p> }.into_any(),
+            );
         }
         let more =
             (unread.more > 0).then(|| view! { <p class="note">{format!("and {} more", unread.more)}</p> });

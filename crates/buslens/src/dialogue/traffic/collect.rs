@@ -5,6 +5,7 @@ use super::entries::Entries;
 use super::entry::{Entry, Hint, NO_TIME, NOBODY, Role, Written, number};
 use super::judge::{Known, Shapes, Weak};
 use super::lane::{Carries, Lane, PAUSE, Row};
+use super::pieces::Found;
 use super::settle::Lines;
 use crate::field::{Direction, Facts};
 use crate::frame::split::{Splitter, Waiting, can_split};
@@ -95,6 +96,8 @@ pub struct Traffic {
     /// Entries that turned out to be parts of others, of those that are not settled.
     pub(super) gone: Vec<u32>,
     pub(super) latest_piece: Latest,
+    /// The telegrams of the last piece: a place to work in, so that pieces do not allocate.
+    pub(super) found: Vec<Found>,
     /// How many bytes the columns of a text had.
     pub(super) in_columns: usize,
     /// What other protocols were seen, by their place in [`FOREIGN`](crate::dialogue::foreign::FOREIGN).
@@ -161,6 +164,7 @@ impl Traffic {
             lines: Lines::default(),
             gone: Vec::new(),
             latest_piece: Latest::default(),
+            found: Vec::new(),
             in_columns: 0,
             foreign_protocols: [0; crate::dialogue::foreign::FOREIGN.len()],
         }

@@ -44,7 +44,7 @@ impl Held {
 }
 
 /// A telegram in a piece.
-type Found = (usize, usize, &'static Protocol, Verdict);
+pub(super) type Found = (usize, usize, &'static Protocol, Verdict);
 
 /// A piece longer than this is no single telegram.
 const LONGEST: usize = 300;
@@ -57,7 +57,9 @@ impl Traffic {
         let mut decimal = std::mem::take(&mut lane.decimal);
         let mut breaks = std::mem::take(&mut lane.breaks);
         let row = lane.row(0);
-        self.piece(index, &buffer, &decimal, &breaks, row);
+        let mut found = std::mem::take(&mut self.found);
+        self.piece(index, &buffer, &decimal, &breaks, row, &mut found);
+        self.found = found;
         buffer.clear();
         decimal.clear();
         breaks.clear();
@@ -66,7 +68,15 @@ impl Traffic {
         lane.rows.clear();
     }
 
-    fn piece(&mut self, index: usize, bytes: &[u8], decimal: &[u8], breaks: &[usize], row: Row) {
+    fn piece(
+        &mut self,
+        index: usize,
+        bytes: &[u8],
+        decimal: &[u8],
+        breaks: &[usize],
+        row: Row,
+        found: &mut Vec<Found>,
+    ) {
         let facts = row.facts;
         if self.by_hand && !facts.column && (!facts.rest || facts.bare) {
             self.latest_piece.set(row, bytes);
@@ -86,12 +96,11 @@ impl Traffic {
             self.foreign_protocols[foreign] += 1;
             return self.passed.push((row.line, row.offset));
         }
-        let mut found = Vec::new();
         for reading in [bytes, decimal] {
-            if self.whole(index, reading, breaks.is_empty(), &mut found) {
+            if self.whole(index, reading, breaks.is_empty(), found) {
                 self.release(index, reading);
                 self.shapes.count(facts.shape, true);
-                return self.take_found(index, reading, 0, &found);
+                return self.take_found(index, reading, 0, found);
             }
         }
         if self.characters(index, bytes, &facts) {
@@ -103,17 +112,17 @@ impl Traffic {
         // `8: 01 03 …`: what stands before or behind a break may be none of the telegram.
         for (from, to) in parts(breaks, bytes.len()) {
             for reading in [bytes, decimal] {
-                if reading.get(from..to).is_some_and(|part| self.whole(index, part, false, &mut found)) {
+                if reading.get(from..to).is_some_and(|part| self.whole(index, part, false, found)) {
                     self.shapes.count(facts.shape, true);
-                    return self.take_found(index, &reading[from..to], from, &found);
+                    return self.take_found(index, &reading[from..to], from, found);
                 }
             }
         }
         for reading in [bytes, decimal] {
-            self.inside(index, reading, &mut found);
+            self.inside(index, reading, found);
             if !found.is_empty() {
-                self.take_found(index, reading, 0, &found);
-                return self.take_rest(index, reading, &found, row);
+                self.take_found(index, reading, 0, found);
+                return self.take_rest(index, reading, found, row);
             }
         }
         if let Some(foreign) = FOREIGN.iter().position(|foreign| (foreign.fits)(bytes)) {
@@ -259,12 +268,15 @@ impl Traffic {
                 && bytes[1] & !EXCEPTION != 0
                 && !(bytes[before] == 0 && is_right(&bytes[..before]));
         }
+        if self.splitter.sides(pdu) != [false; 2] {
+            return true;
+        }
         let lengths = self.splitter.rtu_lengths(bytes);
         let shorter =
             lengths.into_iter().flatten().any(|length| length < bytes.len() && is_right(&bytes[..length]));
         // Only a zero leaves a check right, so that one is all that can be missing.
         let longer = lengths.into_iter().flatten().any(|length| length == bytes.len() + 1);
-        self.splitter.sides(pdu) != [false; 2] || (bytes.len() > 4 && !shorter && !longer)
+        bytes.len() > 4 && !shorter && !longer
     }
 
     /// Takes a piece that is written as the characters of a telegram: a frame of Modbus ASCII, or hex text.

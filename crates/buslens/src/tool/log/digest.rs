@@ -23,11 +23,11 @@ impl Log {
             text: finding.text.sentence() + ".",
             telegrams: finding.evidence.len(),
         };
-        let mut remarks: Vec<String> = self.remarks().iter().map(|remark| remark.sentence() + ".").collect();
+        let mut remarks = overview.remarks;
         remarks.extend(overview.fault);
         Digest {
             title: String::new(),
-            read: overview.story.into_iter().next().unwrap_or_default(),
+            read: overview.read,
             headline: overview.headline,
             remarks,
             findings: findings.iter().map(finding).collect(),

@@ -148,7 +148,10 @@ pub struct Overview {
     pub protocol: String,
     /// The log in one sentence.
     pub headline: String,
-    pub story: Vec<String>,
+    /// What was read: "104 telegrams of Modbus RTU in 104 lines".
+    pub read: String,
+    /// What there is to say besides the units.
+    pub remarks: Vec<String>,
     /// What kept the file from being read to its end.
     pub fault: Option<String>,
     /// All rows, those of no telegram included.
@@ -263,7 +266,7 @@ impl Log {
     /// What there is to say of the whole log.
     pub fn overview(&self) -> Overview {
         let all = self.statistics();
-        let story = self.story().iter().map(|sentence| sentence.sentence() + ".").collect();
+        let said = |sentence: &Message| sentence.sentence() + ".";
         let units = self.unit_rows();
         let dialogs = all.dialogs.iter().filter(|dialog| dialog.check_failed < dialog.telegrams);
         let mut functions: Vec<u8> = dialogs.clone().map(|dialog| dialog.function).collect();
@@ -277,7 +280,8 @@ impl Log {
             format: self.format().name(),
             protocol: self.protocol().label.to_owned(),
             headline: headline(all.telegrams, all.check_failed, &units),
-            story,
+            read: self.story().first().map_or(String::new(), said),
+            remarks: self.remarks().iter().map(said).collect(),
             fault: self.fault(),
             rows: self.entries().len(),
             telegrams: all.telegrams,

@@ -78,7 +78,7 @@ impl Log {
             &|n| message!("{n} of the capture left out: it has more than can be told apart", n = n),
             "connection",
         );
-        say(self.unread().len(), &|n| message!("{n} without bytes", n = n), "line");
+        say(self.unread().len(), &|n| message!("{n} left unread", n = n), "line");
         story
     }
 

@@ -1,0 +1,351 @@
+//! How numbers that follow each other become a run.
+
+use super::Scan;
+use crate::field::Span;
+use crate::text::characters::{DIGITS, is_word, separator, word_of};
+use crate::text::words::{Sender, Weight};
+
+/// How bytes without a mark of their own are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Numbers {
+    Hex,
+    Decimal,
+}
+
+/// How bytes are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Style {
+    /// `01 03`, with any separator.
+    Separated,
+    /// `0103`.
+    Contiguous,
+    /// `0x01`, `$01`.
+    Prefixed,
+    /// `01h`.
+    Suffixed,
+    /// `\x01`.
+    Escaped,
+}
+
+impl Style {
+    pub const ALL: [Self; 5] =
+        [Self::Separated, Self::Contiguous, Self::Prefixed, Self::Suffixed, Self::Escaped];
+
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Separated => "separate hex bytes",
+            Self::Contiguous => "hex digits without spaces",
+            Self::Prefixed => "hex numbers with a prefix",
+            Self::Suffixed => "hex bytes with an h",
+            Self::Escaped => "an escaped string",
+        }
+    }
+}
+
+/// Bytes that follow each other with only marks between them.
+#[derive(Clone, Copy, Debug)]
+pub struct Run {
+    /// Its bytes in [`Scan::hex`], [`Scan::decimal`] and [`Scan::places`].
+    pub first: usize,
+    pub end: usize,
+    /// Its place in the line.
+    pub span: Span,
+    /// All its numbers can be hex.
+    pub hex: bool,
+    /// All its numbers can be decimal, and none is more than 255.
+    pub decimal: bool,
+    /// Written as `0x01`, `\x01` or `01h`: certainly bytes.
+    pub marked: bool,
+    pub style: Style,
+    /// One run of digits behind a colon, as Modbus ASCII has it.
+    pub colon: bool,
+    /// Who speaks, by what stands before it.
+    pub sender: Option<(Sender, Weight)>,
+    /// No other word is between the one that says who speaks and the run.
+    pub said: bool,
+    /// The word before it, as [`word_of`] makes it a number.
+    pub word: u32,
+    /// Its breaks in [`Scan::breaks`].
+    pub breaks: Span,
+    pub(super) tokens: usize,
+    /// Where the last token's bytes begin.
+    pub(super) last: usize,
+    /// How many tokens there are since the last break.
+    pub(super) since: usize,
+    /// It has a byte of one digit without a zero before it, and one with a zero.
+    pub(super) single: bool,
+    pub(super) padded: bool,
+    /// Where the second token's bytes begin, counted from the last break.
+    second: usize,
+    /// The same in the line.
+    pub(super) second_at: usize,
+    separator: u8,
+    /// How wide the first separator is.
+    pub(super) gap: usize,
+}
+
+impl Run {
+    /// How many bytes it has.
+    pub fn len(&self) -> usize {
+        self.end - self.first
+    }
+
+    /// How many numbers they are written as.
+    pub fn tokens(&self) -> usize {
+        self.tokens
+    }
+
+    /// Whether commas stand between its numbers.
+    pub fn is_list(&self) -> bool {
+        self.separator == b','
+    }
+
+    /// What stands between its bytes, `otherwise` where it has only one number so far.
+    fn separator_or(&self, otherwise: u8) -> u8 {
+        if self.since < 2 { otherwise } else { self.separator }
+    }
+
+    /// It ends here, and what comes next has a break before it.
+    pub(super) fn pause(&mut self, at: usize) {
+        self.span.to = at;
+        self.since = 0;
+    }
+}
+
+/// What bytes of a token are.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Kind {
+    /// They can be hex.
+    pub hex: bool,
+    /// They can be decimal.
+    pub decimal: bool,
+    pub marked: bool,
+    pub style: Style,
+}
+
+/// Hex digits without a mark.
+pub(super) const PLAIN: Kind = Kind { hex: true, decimal: false, marked: false, style: Style::Separated };
+
+/// Decimal digits that cannot be hex.
+pub(super) const DECIMAL: Kind = Kind { hex: false, decimal: true, ..PLAIN };
+
+/// Bytes that are certainly hex.
+pub(super) const fn marked(style: Style) -> Kind {
+    Kind { hex: true, decimal: false, marked: true, style }
+}
+
+impl Scan {
+    /// The run that goes on, if the next number fits.
+    pub(super) fn open(&self) -> Option<&Run> {
+        self.runs.last().filter(|_| self.is_open)
+    }
+
+    pub(super) fn open_mut(&mut self) -> Option<&mut Run> {
+        self.runs.last_mut().filter(|_| self.is_open)
+    }
+
+    /// Most of a log are bytes of two hex digits with the same between them: they are read without
+    /// asking what else they could be. Returns where that ends.
+    #[inline]
+    pub(super) fn same_again(&mut self, line: &[u8], at: usize) -> usize {
+        let decimal_only = self.numbers == Some(Numbers::Decimal);
+        let hex_only = self.hex_only();
+        let Self { runs, hex, decimal, places, is_open, .. } = self;
+        let Some(run) = runs.last_mut().filter(|run| *is_open && run.span.to == at) else { return at };
+        let width = run.gap;
+        let known = run.since >= 2 && run.hex && !run.marked && !run.single && (1..=2).contains(&width);
+        if !known || decimal_only {
+            return at;
+        }
+        let gap = [line[run.second_at - width], line[run.second_at - 1]];
+        let digits = |next: &[u8]| {
+            let [.., high, low] = *next else { return [0xFF; 2] };
+            [DIGITS[usize::from(high)], DIGITS[usize::from(low)]]
+        };
+        let same = |next: &&[u8]| {
+            let [high, low] = digits(next);
+            next[0] == gap[0] && next[width - 1] == gap[1] && (high | low) < 16
+        };
+        let step = width + 2;
+        let mut count = line[at..].chunks_exact(step).take_while(same).count();
+        // The last one may be the beginning of a word.
+        if line.get(at + count * step).is_some_and(|c| is_word(*c)) {
+            count = count.saturating_sub(1);
+        }
+        if count == 0 {
+            return at;
+        }
+        let to = at + count * step;
+        let bytes = line[at..to].chunks_exact(step).map(digits);
+        let (mut all_decimal, mut padded) = (true, false);
+        hex.extend(bytes.clone().map(|[high, low]| {
+            all_decimal &= (high < 10) & (low < 10);
+            padded |= high == 0;
+            high << 4 | low
+        }));
+        if !hex_only {
+            decimal.extend(bytes.map(|[high, low]| high.wrapping_mul(10).wrapping_add(low)));
+        }
+        places.extend((1..=count).map(|nth| Span::new(at + nth * step - 2, at + nth * step)));
+        run.decimal &= all_decimal;
+        run.padded |= padded;
+        run.tokens += count;
+        run.since += count;
+        (run.last, run.end) = (hex.len() - 1, hex.len());
+        (run.span.to, run.colon) = (to, false);
+        to
+    }
+
+    pub(super) fn push(&mut self, hex: u8, decimal: u8, from: usize, to: usize) {
+        self.hex.push(hex);
+        if !self.hex_only() {
+            self.decimal.push(decimal);
+        }
+        self.places.push(Span::new(from, to));
+    }
+
+    /// A byte with a mark of its own is the same in a list of decimal numbers.
+    pub(super) fn push_marked(&mut self, value: u8, from: usize, to: usize) {
+        self.push(value, value, from, to);
+    }
+
+    /// Takes the bytes from `first` on into the open run, or begins a new one.
+    pub(super) fn join(&mut self, line: &[u8], at: usize, to: usize, first: usize, kind: Kind) {
+        /// A run with more breaks is none.
+        const BREAKS: usize = 8;
+        /// A number of so many bytes can be a telegram by itself.
+        const LONG: usize = 4;
+        let short = kind.style == Style::Separated && to - at <= 2;
+        let single = short && to - at == 1;
+        let padded = short && to - at == 2 && line[at] == b'0';
+        let Self { runs, breaks, hex, is_open, .. } = self;
+        if let Some(run) = runs.last_mut().filter(|_| *is_open) {
+            let gap = &line[run.span.to..at];
+            let between = separator(gap);
+            let both = (run.hex && kind.hex) || (run.decimal && kind.decimal);
+            // In a list, decimal numbers can stand beside hex ones with a mark.
+            let list = between == Some(b',') && run.separator_or(b',') == b',';
+            // Long numbers in a list are a telegram each; in the rows of a dump they are words.
+            let long = first - run.last >= LONG || hex.len() - first >= LONG;
+            let fits = !(long && between != Some(b' '))
+                && ((both && run.marked == kind.marked) || (list && (both || run.marked || kind.marked)));
+            // `a 01 03`, `01 03 0`: who writes zeros before one digit writes them before each.
+            let apart = between == Some(b' ') && !kind.marked && run.tokens > 0;
+            let odd = apart && ((padded && run.single && run.tokens == 1) || (single && run.padded));
+            if let Some(mark) = between.filter(|_| fits && !odd) {
+                if run.since == 0 {
+                    (run.separator, run.gap) = (0, 0);
+                } else if run.since == 1 {
+                    (run.separator, run.gap, run.second, run.second_at) = (mark, gap.len(), first, at);
+                } else if mark != run.separator && !(run.tokens == 8 && run.separator == b' ' && gap == b"-")
+                {
+                    // `8: 01 03 …`: what stands between them changes behind the first one already.
+                    let restart = run.since == 2;
+                    let place = if restart { run.second } else { first };
+                    // What was decimal before a break need not be so behind it.
+                    let other = !run.hex && kind.hex;
+                    if run.breaks.len() >= BREAKS || other {
+                        self.close();
+                        return self.begin(line, at, to, first, kind, (single, padded));
+                    }
+                    breaks.push(place);
+                    run.breaks.to = breaks.len();
+                    run.since = 0;
+                    if restart {
+                        run.since = 1;
+                        (run.separator, run.gap, run.second, run.second_at) = (mark, gap.len(), first, at);
+                    }
+                }
+                run.last = first;
+                run.end = hex.len();
+                run.span.to = to;
+                run.tokens += 1;
+                run.since += 1;
+                run.decimal = (run.decimal || run.marked) && (kind.decimal || kind.marked);
+                run.hex &= kind.hex;
+                run.marked |= kind.marked;
+                run.single |= single;
+                run.padded |= padded;
+                if kind.style == Style::Contiguous {
+                    run.style = Style::Contiguous;
+                }
+                run.colon = false;
+                return;
+            }
+        }
+        self.close();
+        self.begin(line, at, to, first, kind, (single, padded));
+    }
+
+    fn begin(
+        &mut self,
+        line: &[u8],
+        at: usize,
+        to: usize,
+        first: usize,
+        kind: Kind,
+        (single, padded): (bool, bool),
+    ) {
+        let before = |back: usize| at.checked_sub(back).map(|place| line[place]);
+        let colon = before(1) == Some(b':') && !before(2).is_some_and(|c| c.is_ascii_alphanumeric());
+        let sender = self.strong.map(|sender| (sender, Weight::Strong));
+        self.is_open = true;
+        self.runs.push(Run {
+            first,
+            end: self.hex.len(),
+            span: Span::new(at, to),
+            hex: kind.hex,
+            decimal: kind.decimal,
+            marked: kind.marked,
+            style: kind.style,
+            colon: colon && to - at >= 6,
+            sender: sender.or(self.weak.map(|sender| (sender, Weight::Weak))),
+            said: self.words_since == 0 && (self.strong.is_some() || self.weak.is_some()),
+            word: self.last_word.map_or(0, |word| word_of(word.of(line))),
+            breaks: Span::new(self.breaks.len(), self.breaks.len()),
+            tokens: 1,
+            last: first,
+            since: 1,
+            single,
+            padded,
+            second: first,
+            second_at: at,
+            separator: 0,
+            gap: 0,
+        });
+    }
+
+    /// The open run ends.
+    pub(super) fn close(&mut self) {
+        /// So many bytes that what is said before them is not said of the next ones.
+        const TELEGRAM: usize = 4;
+        let Some(run) = self.open_mut() else { return };
+        // [01][03] is sent and <01><03> received: libmodbus writes so.
+        let sender = match run.separator {
+            b']' => Some(Sender::Logger),
+            b'>' => Some(Sender::Other),
+            _ => None,
+        };
+        if let Some(sender) = sender.filter(|_| run.tokens > 2 && run.sender.is_none()) {
+            run.sender = Some((sender, Weight::Strong));
+        }
+        if run.len() >= TELEGRAM {
+            (self.strong, self.weak) = (None, None);
+        }
+        self.is_open = false;
+    }
+
+    /// The open run turns out to be none.
+    pub(super) fn drop_open(&mut self) {
+        let Some(run) = self.runs.pop_if(|_| self.is_open) else { return };
+        self.is_open = false;
+        self.forget(run.first);
+    }
+
+    /// Forgets the bytes from `first` on.
+    pub(super) fn forget(&mut self, first: usize) {
+        self.hex.truncate(first);
+        self.decimal.truncate(first);
+        self.places.truncate(first);
+    }
+}

@@ -1,0 +1,21 @@
+//! Tasks about telegrams, for lessons and for practice: what is asked, what is right, and what there is to say
+//! to a wrong answer.
+//!
+//! | module | what it holds |
+//! | --- | --- |
+//! | [`task`] | what a task is |
+//! | [`mod@grade`] | whether an answer is right, and which field is off in which way |
+//! | [`notation`] | numbers as people write them |
+//!
+//! It is made of what [`buslens::tool`] offers, in the words of [`buslens::field`], and so it can never be wrong
+//! about a byte that the page shows.
+#![forbid(unsafe_code)]
+
+pub mod grade;
+pub mod notation;
+pub mod practice;
+pub mod random;
+pub mod task;
+
+pub use grade::{Answer, Remark, Verdict, grade};
+pub use task::{Blank, Choice, Expected, Given, Number, Task, Telegram, letter};

@@ -1,0 +1,176 @@
+//! Telegrams and words drawn byte by byte and bit by bit.
+
+use leptos::prelude::*;
+
+use crate::components::byte_strip::role_class;
+use buslens::field::{Message, Order, Role, Spec, hex, hex_value};
+use buslens::tool::{Row, Size};
+
+/// A field, or a group or list of them.
+enum Node<'a> {
+    Field(&'a Row),
+    Around(&'a Row, Vec<Node<'a>>),
+}
+
+/// The rows as a tree; the rest of a group are the rows that lie deeper.
+fn nodes<'a>(rows: &mut std::iter::Peekable<std::slice::Iter<'a, Row>>, depth: usize) -> Vec<Node<'a>> {
+    let mut found = Vec::new();
+    while let Some(row) = rows.next_if(|row| row.depth >= depth) {
+        found.push(match row.size.is_around() {
+            true => Node::Around(row, nodes(rows, depth + 1)),
+            false => Node::Field(row),
+        });
+    }
+    found
+}
+
+/// A telegram as boxes: a cell for each byte, what it is above, and how long below. What is in it is said in the
+/// table of its fields.
+#[component]
+pub fn Diagram(rows: Vec<Row>) -> impl IntoView {
+    let mut all = rows.iter().peekable();
+    let drawn: Vec<AnyView> = nodes(&mut all, 0).iter().map(draw).collect();
+    view! {
+        <ol class="diagram" aria-hidden="true">
+            {drawn}
+        </ol>
+    }
+}
+
+fn draw(node: &Node<'_>) -> AnyView {
+    match node {
+        Node::Field(row) => field(row),
+        Node::Around(row, within) => {
+            let is_list = row.size == Size::List;
+            let drawn: Vec<AnyView> = within.iter().map(draw).collect();
+            view! {
+                <li class="around" class:list=is_list>
+                    <span class="label">{row.spec.short}</span>
+                    <ol>{drawn}</ol>
+                    {is_list.then_some(view! { <span class="times">"× n"</span> })}
+                </li>
+            }
+            .into_any()
+        }
+    }
+}
+
+/// More cells than that are not counted by anybody.
+const MOST: usize = 8;
+
+fn field(row: &Row) -> AnyView {
+    let spec = row.spec;
+    let (cells, caption) = match row.size {
+        Size::Fixed(width) | Size::Each(width) => (width, Message::bytes(width).to_string()),
+        _ => (0, "n bytes".to_owned()),
+    };
+    let marks = marks(row, cells);
+    let cell = |(index, mark): (usize, String)| {
+        let number = row.offset.map(|offset| (offset + index).to_string());
+        view! {
+            <i>
+                <b>{mark}</b>
+                <small>{number}</small>
+            </i>
+        }
+    };
+    let cells = match cells {
+        0 => view! { <i class="rest"><b>"…"</b><small></small></i> }.into_any(),
+        _ => marks.into_iter().enumerate().map(cell).collect_view().into_any(),
+    };
+    view! {
+        <li class=role_class(spec.role)>
+            <span class="label">{spec.short}</span>
+            <span class="cells">{cells}</span>
+            <span class="caption">{caption}</span>
+        </li>
+    }
+    .into_any()
+}
+
+/// What stands in the cells: the bytes where they are always the same, else which is the high one.
+fn marks(row: &Row, cells: usize) -> Vec<String> {
+    if let Some((value, chosen)) = row.chosen
+        && row.spec.role == Role::Function
+        && chosen.label != row.spec.label
+    {
+        let bytes = row.spec.order.bytes(value, cells.min(8));
+        return bytes.iter().map(|byte| hex(&[*byte])).collect();
+    }
+    let low_first = matches!(row.spec.order, Order::Little) || row.spec.role == Role::Check && cells == 2;
+    match (cells, low_first) {
+        (2, false) => vec!["high".to_owned(), "low".to_owned()],
+        (2, true) => vec!["low".to_owned(), "high".to_owned()],
+        _ => vec![String::new(); cells.min(MOST)],
+    }
+}
+
+/// A number bit by bit: what each says, the highest first.
+#[component]
+pub fn BitDiagram(spec: &'static Spec) -> impl IntoView {
+    let highest = spec.bits.iter().map(|part| part.from + part.count).max().unwrap_or_default();
+    let width = highest.div_ceil(8) * 8;
+    let mut parts: Vec<_> = spec.bits.iter().collect();
+    parts.sort_by_key(|part| std::cmp::Reverse(part.from));
+    let of_bit = |bit: u32| parts.iter().find(|part| (part.from..part.from + part.count).contains(&bit));
+    let cells: Vec<AnyView> = (0..width)
+        .rev()
+        .map(|bit| {
+            let part = of_bit(bit);
+            let begins = part.is_some_and(|part| part.from + part.count - 1 == bit) || part.is_none();
+            let reserved = part.is_none_or(|part| part.reserved);
+            view! {
+                <li class:begins=begins class:reserved=reserved>{bit}</li>
+            }
+            .into_any()
+        })
+        .collect();
+    let row = |part: &&&buslens::field::Bits| {
+        let (from, last) = (part.from, part.from + part.count - 1);
+        let place = if from == last { format!("bit {from}") } else { format!("bits {last} to {from}") };
+        let hex = part.count >= 8;
+        let shown = move |value: u64| {
+            if hex { hex_value(value, (part.count as usize).div_ceil(8)) } else { value.to_string() }
+        };
+        let names = part.names.iter().filter(|name| !name.label.is_empty()).map(|name| {
+            view! {
+                <li>
+                    <span class="mono">{shown(name.value)}</span>
+                    " "
+                    {name.label}
+                </li>
+            }
+        });
+        let ranges = part.ranges.iter().map(|range| {
+            view! {
+                <li>
+                    <span class="mono">{format!("{} to {}", shown(range.from), shown(range.to))}</span>
+                    " "
+                    {range.label}
+                </li>
+            }
+        });
+        let names: Vec<_> = names.map(IntoAny::into_any).chain(ranges.map(IntoAny::into_any)).collect();
+        let said = if part.reserved { "must be 0" } else { part.note };
+        view! {
+            <tr>
+                <td class="mono">{place}</td>
+                <th scope="row">{Message::term(part.label).sentence()}</th>
+                <td>
+                    {said}
+                    {(!names.is_empty()).then(|| view! { <ul>{names}</ul> })}
+                </td>
+            </tr>
+        }
+    };
+    let rows = parts.iter().map(|part| row(&part)).collect_view();
+    view! {
+        <ol class="bit-diagram" aria-hidden="true" style:--bits=width.min(16).to_string()>
+            {cells}
+        </ol>
+        <table class="table values-of">
+            <caption>"Bits of " {spec.label}</caption>
+            <tbody>{rows}</tbody>
+        </table>
+    }
+}
