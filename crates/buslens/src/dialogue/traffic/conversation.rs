@@ -91,7 +91,8 @@ struct Window<'a> {
 impl Window<'_> {
     #[inline]
     fn get(&self, index: usize) -> (&Entry, &[u8]) {
-        match index.checked_sub(self.base).and_then(|at| self.block.get(at)) {
+        // Those before the block are none of its places.
+        match self.block.get(index.wrapping_sub(self.base)) {
             Some(entry) => (entry, bytes(entry, self.data)),
             None => self.get_carried(index),
         }
@@ -106,7 +107,7 @@ impl Window<'_> {
 
     #[inline]
     fn change(&mut self, index: usize, change: impl FnOnce(&mut Entry)) {
-        if let Some(entry) = index.checked_sub(self.base).and_then(|at| self.block.get_mut(at)) {
+        if let Some(entry) = self.block.get_mut(index.wrapping_sub(self.base)) {
             return change(entry);
         }
         let place = self.carried.partition_point(|carried| carried.index < index);
@@ -270,27 +271,27 @@ impl Port {
             _ if awaited => Direction::Response,
             _ => Direction::Request,
         };
-        let mut fresh = Entry { direction, ..entry };
-        if direction == Direction::Request && awaited && repeats_request(&entry) {
-            fresh.sides = [true, false];
-        }
-        if entry.sides == [false; 2] && direction == Direction::Response {
-            fresh.sides = [false, true];
-        }
+        let sides = match direction {
+            Direction::Request if awaited && repeats_request(&entry) => [true, false],
+            Direction::Response if entry.sides == [false; 2] => [false, true],
+            _ => entry.sides,
+        };
         self.previous = Some(index);
         if echoes {
-            fresh.role = Role::Echo;
-            window.change(index, |entry| *entry = fresh);
+            let role = Role::Echo;
+            window
+                .change(index, |entry| (entry.direction, entry.sides, entry.role) = (direction, sides, role));
             self.echoed = true;
             return;
         }
+        let (mut role, mut partner) = (entry.role, entry.partner);
         let most = if protocol.waiting > 1 { protocol.waiting } else { LATE };
         match (direction, exchange) {
-            (Direction::Request, None) => fresh.role = Role::Broadcast,
+            (Direction::Request, None) => role = Role::Broadcast,
             (Direction::Request, Some(exchange)) => {
                 // Polls are alike, too: only who asks again at once tries again.
                 if repeats || again {
-                    fresh.role = Role::Retry;
+                    role = Role::Retry;
                     // Of a function that is not known, that tells who speaks.
                     if let Some((request, _)) = last.filter(|_| entry.sides == [false; 2]) {
                         window.change(request, |request| request.sides = [true, false]);
@@ -304,7 +305,7 @@ impl Port {
                 }
                 self.open.push((index, exchange));
             }
-            (Direction::Response, None) => fresh.role = Role::Unasked,
+            (Direction::Response, None) => role = Role::Unasked,
             (Direction::Response, Some(exchange)) => {
                 let place =
                     self.open.iter().rposition(|(_, open)| exchange == ANY_EXCHANGE || *open == exchange);
@@ -312,15 +313,18 @@ impl Port {
                     Some(place) => {
                         let late = protocol.waiting == 1 && place + 1 < self.open.len();
                         let (request, _) = self.open.remove(place);
-                        fresh.role = if late { Role::Late } else { Role::Plain };
-                        fresh.partner = request as u32;
+                        role = if late { Role::Late } else { Role::Plain };
+                        partner = request as u32;
                         window.change(request, |request| request.partner = index as u32);
                     }
-                    None => fresh.role = Role::Unasked,
+                    None => role = Role::Unasked,
                 }
             }
         }
-        debug_assert!(fresh.partner == NOBODY || fresh.partner != index as u32);
-        window.change(index, |entry| *entry = fresh);
+        debug_assert!(partner == NOBODY || partner != index as u32);
+        window.change(index, |entry| {
+            (entry.direction, entry.sides) = (direction, sides);
+            (entry.role, entry.partner) = (role, partner);
+        });
     }
 }

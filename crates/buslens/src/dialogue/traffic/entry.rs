@@ -1,4 +1,4 @@
-use crate::field::{Direction, Span};
+use crate::field::Direction;
 use crate::frame::{PROTOCOLS, Protocol, Verdict};
 
 /// A telegram of a log. [`Entries`](super::Entries) keeps millions in little room.
@@ -154,7 +154,7 @@ impl Entry {
 /// The bytes of an entry in those that are at hand.
 pub(super) fn bytes<'a>(entry: &Entry, data: &'a [u8]) -> &'a [u8] {
     let from = entry.at as usize;
-    Span::new(from, from + usize::from(entry.length)).of(data)
+    data.get(from..from + usize::from(entry.length)).unwrap_or_default()
 }
 
 /// The place of a protocol in [`PROTOCOLS`].

@@ -179,7 +179,8 @@ impl Traffic {
     fn take_out(&mut self, count: usize, gone: &HashSet<u32>, more: Vec<(u32, Vec<Entry>)>) -> Vec<Entry> {
         if gone.is_empty() && self.fresh_pauses.is_empty() {
             self.count_from(count, gone);
-            return self.entries.drain(..count).collect();
+            let later = self.entries.split_off(count);
+            return std::mem::replace(&mut self.entries, later);
         }
         let mut more = more.into_iter().peekable();
         let mut block = Vec::with_capacity(count);
