@@ -11,7 +11,6 @@ use web_sys::js_sys::Reflect;
 
 use crate::address::{Address, Shows, View};
 use crate::browser::typing::is_typed_into;
-use crate::components::foot::{AboutIsOpen, Foot};
 use crate::components::header::Header;
 use crate::components::toast::{ToastList, Toasts};
 use crate::later::{Later, LaterPiece, Part, Piece};
@@ -26,7 +25,6 @@ pub fn App() -> impl IntoView {
     let toasts = Toasts::new();
     provide_context(address);
     provide_context(toasts);
-    provide_context(AboutIsOpen(RwSignal::new(false)));
     let devices = DeviceSettings::new();
     provide_context(devices);
     let later = Later::new();
@@ -108,7 +106,7 @@ pub fn App() -> impl IntoView {
             <main id="main" tabindex="-1" node_ref=main>
                 {view}
             </main>
-            <Foot />
+            <LaterPiece piece=Piece::Foot />
             <ToastList />
         </div>
     }

@@ -13,16 +13,18 @@ use leptos::task::spawn_local;
 use leptos::wasm_split::{SplitLoaderError, wasm_split};
 
 use crate::address::View;
-use crate::components::byte_strip::Lights;
 use crate::components::causes::Causes;
+use crate::components::chosen_byte::ChosenByte;
+use crate::components::copy_as::CopyAs;
+use crate::components::foot::{AboutIsOpen, Foot};
+use crate::components::page_tools::PageTools;
 use crate::components::telegram::Shown;
 use crate::views::build::{Build, BuildState};
 use crate::views::check::{Check, CheckState};
 use crate::views::devices::Devices;
 use crate::views::learn::{Learn, LearnState};
-use crate::views::read::{Beside, LogView, More, Pictures, ProposedDevice, ReadState};
+use crate::views::read::{Beside, Examples, LogView, More, ProposedDevice, ReadState, ReadingChoices, Start};
 use crate::views::sheet::Sheet;
-use buslens::tool::json;
 use buslens::tool::link::Link;
 
 /// A part of the module.
@@ -30,7 +32,7 @@ use buslens::tool::link::Link;
 pub enum Part {
     /// Build, Check, Devices, Sheet, and what they have in common.
     Views,
-    /// What reads logs and shows them, and what there is to say beside a telegram and its fields.
+    /// What reads logs and shows them, and what stands around a telegram and its fields: reasons, tools, menus.
     Log,
     /// Lessons, tasks, and everything to look up.
     Learn,
@@ -45,14 +47,21 @@ pub enum Piece {
     Sheet,
     Learn,
     Log,
-    /// What comes of telegrams and logs, beside the input that is empty.
-    Pictures,
-    Causes(Shown),
-    /// What is folded below a telegram.
-    More(Shown, Lights),
+    /// What can be done with the page as a whole.
+    PageTools,
+    Foot,
+    /// What there is to try, and what comes of it, below the input that is empty.
+    Start,
+    Examples,
+    ReadingChoices,
     ProposedDevice,
     /// What the text tells beside its telegrams, or in their place.
     Beside,
+    CopyAs,
+    Causes(Shown),
+    ChosenByte(Shown),
+    /// What is folded below a telegram.
+    More,
 }
 
 impl Piece {
@@ -104,21 +113,33 @@ fn views() -> Result<Content, NotLoaded> {
 
 #[wasm_split(log, wasm_split_path = leptos::wasm_split, fallible)]
 fn log() -> Result<Content, NotLoaded> {
+    fn start() {
+        provide_context(AboutIsOpen(RwSignal::new(false)));
+        expect_context::<ReadState>().read_logs();
+    }
     fn draw(piece: Piece) -> AnyView {
+        let read = expect_context::<ReadState>();
         match piece {
+            Piece::PageTools => view! { <PageTools /> }.into_any(),
+            Piece::Foot => view! { <Foot /> }.into_any(),
+            Piece::Start => view! { <Start /> }.into_any(),
+            Piece::Examples => view! { <Examples /> }.into_any(),
+            Piece::ReadingChoices => view! { <ReadingChoices /> }.into_any(),
+            Piece::ProposedDevice => view! { <ProposedDevice /> }.into_any(),
+            Piece::Beside => view! { <Beside /> }.into_any(),
+            Piece::CopyAs => {
+                view! { <CopyAs shown=Signal::derive(move || read.shown()) at_end=true /> }.into_any()
+            }
             Piece::Causes(shown) => {
-                let read = expect_context::<ReadState>();
                 let on_use = Callback::new(move |bytes| read.correct(bytes));
                 view! { <Causes shown on_use /> }.into_any()
             }
-            Piece::More(shown, lights) => view! { <More shown lights /> }.into_any(),
-            Piece::ProposedDevice => view! { <ProposedDevice /> }.into_any(),
-            Piece::Beside => view! { <Beside /> }.into_any(),
-            Piece::Pictures => view! { <Pictures /> }.into_any(),
+            Piece::ChosenByte(shown) => view! { <ChosenByte shown lights=read.lights /> }.into_any(),
+            Piece::More => view! { <More /> }.into_any(),
             _ => view! { <LogView /> }.into_any(),
         }
     }
-    Ok(Content { start: || expect_context::<ReadState>().read_logs(), draw })
+    Ok(Content { start, draw })
 }
 
 #[wasm_split(learn, wasm_split_path = leptos::wasm_split, fallible)]
@@ -129,13 +150,6 @@ fn learn() -> Result<Content, NotLoaded> {
         expect_context::<Later>().give(View::Learn, Box::new(state));
     }
     Ok(Content { start, draw: |_| view! { <Learn /> }.into_any() })
-}
-
-/// The telegram as JSON with its fields.
-#[wasm_split(views, wasm_split_path = leptos::wasm_split, fallible)]
-pub fn json(shown: Shown) -> Result<String, NotLoaded> {
-    // Text and numbers always make JSON.
-    Ok(json::line(&shown.report, shown.index, true).unwrap_or_default())
 }
 
 /// Answers what the page asks about logs; for the worker.

@@ -4,6 +4,7 @@
 //! they need in the environment: `BUSLENS_URL`, `BUSLENS_DIST`, `BUSLENS_ENGINE`, `BUSLENS_BROWSER`,
 //! `BUSLENS_DRIVER`, `BUSLENS_KEEPER`, `BUSLENS_AXE` and `BUSLENS_SCREENSHOTS`.
 
+mod aloud;
 mod browser;
 mod fields;
 mod site;
@@ -29,6 +30,9 @@ pub const NARROW: (u32, u32) = (320, 640);
 
 /// Every view of the page.
 pub const VIEWS: [&str; 5] = ["#/read", "#/build", "#/check", "#/devices", "#/sheet"];
+
+/// Is there once the part of the page is that stands around what is read.
+const THERE: &str = ".foot";
 
 /// A page of its own in a browser of its own.
 pub struct Page {
@@ -56,7 +60,7 @@ impl Page {
     pub async fn open_address(address: &str, size: (u32, u32), dark: bool) -> Result<Self> {
         let page = Self::empty(size, dark).await?;
         page.driver.goto(address).await?;
-        page.one("main > *").await?;
+        page.one(THERE).await?;
         Ok(page)
     }
 
@@ -75,7 +79,7 @@ impl Page {
         // A link that differs behind its `#` only would load nothing.
         self.driver.goto("about:blank").await?;
         self.driver.goto(format!("{}{fragment}", setting("BUSLENS_URL"))).await?;
-        self.one("main > *").await?;
+        self.one(THERE).await?;
         self.settle().await
     }
 

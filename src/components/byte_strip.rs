@@ -108,9 +108,10 @@ pub fn ByteStrip(
             view! {
                 <button
                     type="button"
+                    role="option"
                     tabindex=move || if is_stop.selected(&at) { "0" } else { "-1" }
-                    aria-pressed=move || is_chosen.selected(&Some(at)).to_string()
-                    aria-label=format!("{byte:02X}, byte {at}, {name}")
+                    aria-selected=move || is_chosen.selected(&Some(at)).to_string()
+                    aria-label=format!("{byte:02X}, {name}, byte {at}")
                     on:click=move |_| choose(at)
                 >
                     {format!("{byte:02X}")}
@@ -119,6 +120,7 @@ pub fn ByteStrip(
         };
         view! {
             <li
+                role="presentation"
                 class=class
                 class:faulty=faulty
                 class:pointed=move || lights.points_at(span)
@@ -133,14 +135,17 @@ pub fn ByteStrip(
     };
     let more = move || {
         length.get().checked_sub(MOST).filter(|more| *more > 0).map(|more| {
-            view! { <li class="rest">{format!("and {more} more bytes")}</li> }
+            view! { <li role="presentation" class="rest">{format!("and {more} more bytes")}</li> }
         })
     };
     view! {
+        // A list to choose from: a screen reader says of each byte which of how many it is.
         <ol
+            role="listbox"
+            aria-orientation="horizontal"
             node_ref=strip
             class=format!("byte-strip {size}")
-            aria-label=label.unwrap_or_else(|| "Bytes. Arrow keys go from byte to byte.".to_owned())
+            aria-label=label.unwrap_or_else(|| "Bytes".to_owned())
             on:keydown=keys
             on:pointerleave=move |_| lights.pointed.set(None)
         >

@@ -3,6 +3,7 @@
 use leptos::prelude::*;
 
 use super::copy_button::CopyButton;
+use super::fold::Fold;
 use super::icon::{Glyph, Icon};
 use super::telegram::Shown;
 use crate::address::{View, href};
@@ -39,6 +40,31 @@ pub fn Causes(
 
 #[component]
 fn Cause(shown: Shown, cause: Explanation, open: bool, on_use: Option<Callback<Vec<u8>>>) -> impl IntoView {
+    let title = cause.hypothesis.text(shown.bytes()).sentence() + ".";
+    // What fits anything says nothing for itself.
+    let odds = match cause.hypothesis.odds().to_string() {
+        odds if odds == "always" => "always possible".to_owned(),
+        odds => format!("{odds} by chance"),
+    };
+    let summary = move || {
+        view! {
+            <span>{title.clone()}</span>
+            " "
+            <span class="odds">{odds.clone()}</span>
+        }
+    };
+    view! {
+        <li>
+            <Fold summary open class="cause">
+                <Corrected shown=shown.clone() cause=cause.clone() on_use />
+            </Fold>
+        </li>
+    }
+}
+
+/// The telegram as it came, and as it was if the cause is the true one.
+#[component]
+fn Corrected(shown: Shown, cause: Explanation, on_use: Option<Callback<Vec<u8>>>) -> impl IntoView {
     let found = shown.bytes().to_vec();
     let right = cause.hypothesis.bytes.clone();
     let options = Options {
@@ -47,12 +73,6 @@ fn Cause(shown: Shown, cause: Explanation, open: bool, on_use: Option<Callback<V
         ..shown.options.clone()
     };
     let both = Link { telegram: 1, ..Link::to(format!("{}\n{}", hex(&found), hex(&right)), options) };
-    let title = cause.hypothesis.text(&found).sentence() + ".";
-    // What fits anything says nothing for itself.
-    let odds = match cause.hypothesis.odds().to_string() {
-        odds if odds == "always" => "always possible".to_owned(),
-        odds => format!("{odds} by chance"),
-    };
     let sense = cause.sense().sentence() + ".";
     let copied = hex(&right);
     let said = cause.said.sentence() + ".";
@@ -65,31 +85,22 @@ fn Cause(shown: Shown, cause: Explanation, open: bool, on_use: Option<Callback<V
         }
     });
     view! {
-        <li>
-            <details open=open>
-                <summary>
-                    <span>{title}</span>
-                    " "
-                    <span class="odds">{odds}</span>
-                </summary>
-                <div class="compared">
-                    <span>"Received"</span>
-                    <Marked bytes=found spans=cause.removed.clone() class="bad" />
-                    <span>"Corrected"</span>
-                    <Marked bytes=right spans=cause.added.clone() class="good" />
-                    <span>"Meaning"</span>
-                    <p>
-                        <strong>{said}</strong>
-                        " "
-                        <span class="note">{sense}</span>
-                    </p>
-                </div>
-                <div class="acts">
-                    {use_it} <CopyButton text=copied label="Copy the corrected bytes" class="low" />
-                    <a class="button low" href=href(View::Read, &both)>"Compare both"</a>
-                </div>
-            </details>
-        </li>
+        <div class="compared">
+            <span>"Received"</span>
+            <Marked bytes=found spans=cause.removed class="bad" />
+            <span>"Corrected"</span>
+            <Marked bytes=right spans=cause.added class="good" />
+            <span>"Meaning"</span>
+            <p>
+                <strong>{said}</strong>
+                " "
+                <span class="note">{sense}</span>
+            </p>
+        </div>
+        <div class="acts">
+            {use_it} <CopyButton text=copied label="Copy the corrected bytes" class="low" />
+            <a class="button low" href=href(View::Read, &both)>"Compare both"</a>
+        </div>
     }
 }
 

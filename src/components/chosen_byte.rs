@@ -5,10 +5,24 @@ use leptos::prelude::*;
 use super::byte_strip::Lights;
 use super::icon::{Glyph, Icon};
 use super::telegram::Shown;
+use super::toast::Toasts;
 use buslens::tool::byte::{Share, itself, shares};
 
 #[component]
 pub fn ChosenByte(shown: Shown, lights: Lights) -> impl IntoView {
+    let toasts = expect_context::<Toasts>();
+    let told = shown.clone();
+    // The whole of it would be said at each key: which byte of what it is, is enough until somebody goes there.
+    Effect::watch(
+        move || lights.chosen.get(),
+        move |chosen, _, _| {
+            let Some(at) = chosen.map(|chosen| chosen.at) else { return };
+            let places = shares(&told.detail, told.bytes(), at);
+            let places: Vec<_> = places.iter().map(|share| share.place.sentence()).collect();
+            toasts.announce(places.join(", "));
+        },
+        false,
+    );
     move || {
         let at = lights.chosen.get()?.at;
         let byte = shown.bytes().get(at).copied()?;
@@ -17,7 +31,7 @@ pub fn ChosenByte(shown: Shown, lights: Lights) -> impl IntoView {
             .map(|share| view! { <Shared share /> })
             .collect();
         Some(view! {
-            <section class="part chosen-byte" aria-live="polite">
+            <section class="part chosen-byte" aria-label="Chosen byte">
                 <header>
                     <h3>"Byte " {at} ": " <code>{itself(byte).to_string()}</code></h3>
                     <button

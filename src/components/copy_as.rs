@@ -8,16 +8,13 @@ use super::icon::Glyph;
 use super::menu::{Menu, MenuItem};
 use super::telegram::Shown;
 use super::toast::Toasts;
-use crate::later;
 use buslens::tool::copy::{FORMATS, Format};
+use buslens::tool::json;
 
-/// A menu of formats, with one more where the line carries characters.
+/// A menu of formats, with one more where the line carries characters. There is none without a telegram.
 #[component]
-pub fn CopyAs(shown: Shown, #[prop(optional)] at_end: bool) -> impl IntoView {
+pub fn CopyAs(#[prop(into)] shown: Signal<Option<Shown>>, #[prop(optional)] at_end: bool) -> impl IntoView {
     let toasts = expect_context::<Toasts>();
-    let characters = shown.telegram.choice.protocol.characters.map(|characters| characters(shown.bytes()));
-    let shown = StoredValue::new(shown);
-    let characters = StoredValue::new(characters);
     let give = move |text: String| {
         spawn_local(async move {
             if copy(toasts, text).await {
@@ -26,38 +23,38 @@ pub fn CopyAs(shown: Shown, #[prop(optional)] at_end: bool) -> impl IntoView {
         });
     };
     let entry = move |format: &'static Format| {
-        // What is on the line are the characters.
         let choose = Callback::new(move |()| {
-            let text = characters.with_value(|characters| match characters {
+            let Some(shown) = shown.get_untracked() else { return };
+            // What is on the line are the characters.
+            give(match characters(&shown) {
                 Some(characters) => (format.write)(characters.as_bytes()),
-                None => shown.with_value(|shown| (format.write)(shown.bytes())),
+                None => (format.write)(shown.bytes()),
             });
-            give(text);
         });
         view! { <MenuItem on_choose=choose>{format.label}</MenuItem> }
     };
+    let as_characters = move || {
+        let text = characters(&shown.get()?)?;
+        let choose = Callback::new(move |()| give(text.clone()));
+        Some(view! { <MenuItem on_choose=choose>"Characters"</MenuItem> })
+    };
     let as_json = Callback::new(move |()| {
-        spawn_local(async move {
-            match later::json(shown.get_value()).await {
-                Ok(text) => give(text),
-                Err(later::NotLoaded) => {
-                    toasts.say("What writes JSON could not be loaded: check the connection.")
-                }
-            }
-        });
+        // Text and numbers always make JSON.
+        let line = |shown: Shown| json::line(&shown.report, shown.index, true).ok();
+        shown.get_untracked().and_then(line).into_iter().for_each(give);
     });
     view! {
-        <Menu label="Copy as" glyph=Glyph::Copy at_end=at_end>
-            {FORMATS.iter().map(entry).collect_view()}
-            {move || {
-                characters
-                    .get_value()
-                    .map(|text| {
-                        let choose = Callback::new(move |()| give(text.clone()));
-                        view! { <MenuItem on_choose=choose>"Characters"</MenuItem> }
-                    })
-            }}
-            <MenuItem on_choose=as_json>"JSON, with its fields"</MenuItem>
-        </Menu>
+        <Show when=move || shown.with(Option::is_some)>
+            <Menu label="Copy as" glyph=Glyph::Copy at_end=at_end>
+                {FORMATS.iter().map(entry).collect_view()}
+                {as_characters}
+                <MenuItem on_choose=as_json>"JSON, with its fields"</MenuItem>
+            </Menu>
+        </Show>
     }
+}
+
+/// What stands on the line, where that is no bytes but characters.
+fn characters(shown: &Shown) -> Option<String> {
+    shown.telegram.choice.protocol.characters.map(|characters| characters(shown.bytes()))
 }

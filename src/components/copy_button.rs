@@ -29,6 +29,7 @@ pub fn CopyButton(
         let text = text.get_untracked();
         spawn_local(async move {
             if copy(toasts, text).await {
+                toasts.announce("Copied.");
                 copied.set(true);
                 set_timeout(move || copied.set(false), SHOWN);
             }
@@ -49,12 +50,11 @@ pub fn CopyButton(
 /// How long a button says what it did.
 const SHOWN: Duration = Duration::from_secs(2);
 
-/// Puts `text` on the clipboard. Where the browser refuses, the person is told how to do it by hand.
+/// Puts `text` on the clipboard; whoever asked for it says so. Where the browser refuses, the person is told how
+/// to do it by hand.
 pub async fn copy(toasts: Toasts, text: String) -> bool {
     let done = clipboard::write(&text).await.is_ok();
-    if done {
-        toasts.announce("Copied.");
-    } else {
+    if !done {
         toasts.say("The browser does not let Buslens copy. Select the text and copy it with Ctrl+C.");
     }
     done

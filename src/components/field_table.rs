@@ -45,6 +45,11 @@ pub fn FieldTable(
         move |row: &Row| row.opens.map(|open| open != turned.with(|turned| turned.contains(&row.id)));
     let shown = Memo::new(move |_| rows.with(|rows| visible(rows, is_open)));
     let stop = RwSignal::new(0_usize);
+    // The row that Tab leads to.
+    let stop_now = Memo::new(move |_| {
+        shown.with(|rows| rows.get(stop.get().min(rows.len().saturating_sub(1))).map(|row| row.id.clone()))
+    });
+    let is_stop = Selector::new(move || stop_now.get());
     let place = move |id: &str| shown.with(|rows| rows.iter().position(|row| row.id == id));
     let turn = move |id: String| {
         turned.update(|turned| {
@@ -86,14 +91,13 @@ pub fn FieldTable(
     let row = move |row: Row| {
         let span = row.span;
         let (id, opens) = (row.id.clone(), row.opens.is_some());
-        let is_stop = {
-            let id = row.id.clone();
-            move || place(&id).unwrap_or_default() == stop.get().min(shown.with(Vec::len).saturating_sub(1))
-        };
+        let (is_stop, this) = (is_stop.clone(), Some(row.id.clone()));
         let expanded = {
             let row = row.clone();
             move || is_open(&row).map(|open| open.to_string())
         };
+        let said = [row.value.as_str(), row.meaning.as_str()];
+        let held = said.into_iter().filter(|said| !said.is_empty()).collect::<Vec<_>>().join(", ");
         let click = move |_| {
             stop.set(place(&id).unwrap_or_default());
             choose(span);
@@ -117,8 +121,10 @@ pub fn FieldTable(
                 <th role="rowheader" scope="row">
                     <button
                         type="button"
-                        tabindex=move || if is_stop() { "0" } else { "-1" }
+                        tabindex=move || if is_stop.selected(&this) { "0" } else { "-1" }
                         aria-expanded=expanded
+                        // Who goes from field to field by keys hears what it holds, too.
+                        aria-description=held
                         title=row.note
                         on:click=click
                     >

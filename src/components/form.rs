@@ -194,7 +194,7 @@ fn list(entry: Signal<Entry>) -> impl IntoView {
     view! {
         <fieldset class="list">
             <legend>
-                {label} <small>{move || length.get().to_string()}</small>
+                {label} " " <small>{move || length.get().to_string()}</small>
             </legend>
             {(!note.is_empty()).then(|| view! { <p class="note">{note}</p> })}
             <For each=move || 0..length.get() key=|index| *index children=item />

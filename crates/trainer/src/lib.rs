@@ -5,6 +5,7 @@
 //! | --- | --- |
 //! | [`task`] | what a task is |
 //! | [`mod@grade`] | whether an answer is right, and which field is off in which way |
+//! | [`lesson`] | lessons as text: reading them, and holding them to what the library says |
 //! | [`notation`] | numbers as people write them |
 //!
 //! It is made of what [`buslens::tool`] offers, in the words of [`buslens::field`], and so it can never be wrong
@@ -12,6 +13,7 @@
 #![forbid(unsafe_code)]
 
 pub mod grade;
+pub mod lesson;
 pub mod notation;
 pub mod practice;
 pub mod random;

@@ -67,10 +67,9 @@ fn Actions(#[prop(into)] shown: Signal<Option<Shown>>, main: bool) -> impl IntoV
         };
         Some(href(View::Read, &link))
     };
-    let copy_as = move || shown.get().map(|shown| view! { <CopyAs shown /> });
     view! {
         <CopyButton text=bytes_of(shown) label="Copy hex" class=if main { "main" } else { "" } />
-        {copy_as}
+        <CopyAs shown />
         <a class="button" href=read aria-label="Open in Read">
             <Icon glyph=Glyph::Read />
             "Read"

@@ -26,6 +26,32 @@ use steps::{Bytes, Player, StepList};
 pub fn Check() -> impl IntoView {
     let state = expect_context::<CheckState>();
     let work = state.work();
+    view! {
+        <div class="check">
+            <h2 class="unseen">"Check: how a CRC or checksum is calculated"</h2>
+            <Input />
+            <Outcome />
+            <Show when=move || work.with(|work| work.covered > 0)>
+                <div class="columns">
+                    <section aria-label="Calculation">
+                        <Calculation />
+                        <Worth />
+                    </section>
+                    <section class="rail" aria-label="Steps and other algorithms">
+                        <StepList />
+                        <Algorithms />
+                    </section>
+                </div>
+            </Show>
+        </div>
+    }
+}
+
+/// The steps of a check one by one: bytes, player, registers, and why. Its state is in the context.
+#[component]
+pub fn Calculation() -> impl IntoView {
+    let state = expect_context::<CheckState>();
+    let work = state.work();
     Effect::new(move || {
         /// Time enough to see what changes.
         const PACE: Duration = Duration::from_millis(450);
@@ -45,26 +71,10 @@ pub fn Check() -> impl IntoView {
     // Who comes back finds the step, not the play.
     on_cleanup(move || state.playing.set(false));
     view! {
-        <div class="check">
-            <h2 class="unseen">"Check: how a CRC or checksum is calculated"</h2>
-            <Input />
-            <Outcome />
-            <Show when=move || work.with(|work| work.covered > 0)>
-                <div class="columns">
-                    <section aria-label="Calculation">
-                        <Bytes />
-                        <Player />
-                        <Registers />
-                        <Why />
-                        <Worth />
-                    </section>
-                    <section class="rail" aria-label="Steps and other algorithms">
-                        <StepList />
-                        <Algorithms />
-                    </section>
-                </div>
-            </Show>
-        </div>
+        <Bytes />
+        <Player />
+        <Registers />
+        <Why />
     }
 }
 

@@ -2,6 +2,7 @@
 
 use leptos::prelude::*;
 
+use super::lessons::LessonsState;
 use crate::address::Address;
 use buslens::tool::link::Link;
 
@@ -44,6 +45,7 @@ pub struct LearnState {
     part: RwSignal<Part>,
     /// The place in each part, in the order of [`Part::ALL`]: words with points between them.
     places: [RwSignal<String>; 4],
+    pub lessons: LessonsState,
 }
 
 impl LearnState {
@@ -53,6 +55,7 @@ impl LearnState {
             address: expect_context(),
             part: RwSignal::new(Part::Lessons),
             places: std::array::from_fn(|_| RwSignal::new(String::new())),
+            lessons: LessonsState::new(),
         }
     }
 

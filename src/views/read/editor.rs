@@ -6,6 +6,7 @@ use leptos::prelude::*;
 
 use super::ReadState;
 use crate::components::icon::{Glyph, Icon};
+use crate::components::roving;
 use crate::components::state_badge::StateBadge;
 use buslens::field::{Direction, Severity, Span};
 use buslens::tool::log::{State, brief};
@@ -89,6 +90,17 @@ pub fn Editor() -> impl IntoView {
 fn Said() -> impl IntoView {
     let read = expect_context::<ReadState>();
     let lines = Memo::new(move |_| said(&read.report()));
+    let list = NodeRef::<html::Ol>::new();
+    // The one that Tab leads to: of the telegram that is shown, or of that in whose line it stands.
+    let stop = Memo::new(move |_| {
+        let shown = read.index();
+        lines.with(|lines| lines.iter().rfind(|line| line.index <= shown).map(|line| line.index))
+    });
+    let keys = move |event: KeyboardEvent| {
+        let to = list.get_untracked().and_then(|list| roving::follow(&event, &list, "button"));
+        let to = to.and_then(|to| lines.with_untracked(|lines| lines.get(to).map(|line| line.index)));
+        to.into_iter().for_each(|index| read.select(index));
+    };
     let line = move |line: SaidLine| {
         let index = line.index;
         let arrow = match line.direction {
@@ -101,6 +113,7 @@ fn Said() -> impl IntoView {
             <li style:--line=line.line.to_string()>
                 <button
                     type="button"
+                    tabindex=move || if stop.get() == Some(index) { "0" } else { "-1" }
                     aria-pressed=move || (read.index() == index).to_string()
                     on:click=move |_| read.select(index)
                 >
@@ -113,7 +126,7 @@ fn Said() -> impl IntoView {
         }
     };
     view! {
-        <ol class="said-lines" aria-label="What the lines say">
+        <ol class="said-lines" aria-label="What the lines say" node_ref=list on:keydown=keys>
             <For each=move || lines.get() key=|line| line.clone() children=line />
         </ol>
     }

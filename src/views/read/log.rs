@@ -64,6 +64,8 @@ pub struct LogState {
     options: RwSignal<Options>,
     /// What notes belong to.
     key: RwSignal<String>,
+    /// The log was told of, and its first list is to come.
+    is_new: StoredValue<bool>,
     pub stage: RwSignal<Stage>,
     pub overview: RwSignal<Option<Arc<Overview>>>,
     pub findings: RwSignal<Vec<Found>>,
@@ -114,6 +116,7 @@ impl LogState {
             toasts,
             options: RwSignal::default(),
             key: RwSignal::default(),
+            is_new: StoredValue::new(false),
             stage: RwSignal::default(),
             overview: RwSignal::default(),
             findings: RwSignal::default(),
@@ -355,6 +358,7 @@ impl LogState {
                     many(overview.telegrams, "telegram"),
                     overview.headline
                 ));
+                self.is_new.set_value(true);
                 self.overview.set(Some(Arc::from(overview)));
                 self.stage.set(Stage::Ready);
             }
@@ -431,7 +435,10 @@ impl LogState {
     /// The list is another one.
     fn listed(&self) {
         let total = self.total.get_untracked();
-        self.toasts.announce(format!("{} in the list", many(total, "telegram")));
+        // The first list has what was told of the log just now.
+        if !self.is_new.try_update_value(std::mem::take).unwrap_or_default() {
+            self.toasts.announce(format!("{} in the list", many(total, "telegram")));
+        }
         self.ask(Request::Rows { from: 0, count: ASKED });
         let shown = self.current.with_untracked(|current| current.as_ref().map(|it| it.told.row.index));
         match shown {

@@ -19,15 +19,15 @@ use crate::browser::typing::is_typed_into;
 use crate::components::icon::{Glyph, Icon};
 use crate::later::{CouldNotLoad, Later, LaterPiece, Part, Piece};
 use editor::Editor;
-use examples::Examples;
 use open_file::OpenFile;
-use reading::{ReadAs, ReadingChoices};
-use start::{Start, Welcome};
+use reading::ReadAs;
+use start::Welcome;
 use telegrams::Telegrams;
 
+pub use examples::Examples;
 pub use log_view::LogView;
-pub use pictures::Pictures;
-pub use reading::{Beside, ProposedDevice};
+pub use reading::{Beside, ProposedDevice, ReadingChoices};
+pub use start::Start;
 pub use state::{Mode, ReadState};
 pub use telegrams::More;
 
@@ -48,7 +48,7 @@ pub fn Read() -> impl IntoView {
     let starts = Memo::new(move |_| read.mode() == Mode::Start);
     let is_empty = Memo::new(move |_| read.report().telegrams.is_empty());
     let below = move || match read.mode() {
-        Mode::Start => view! { <Start /> }.into_any(),
+        Mode::Start => view! { <LaterPiece piece=Piece::Start /> }.into_any(),
         Mode::Telegrams if is_empty.get() => view! { <Nothing /> }.into_any(),
         Mode::Telegrams => view! { <Telegrams /> }.into_any(),
         Mode::Log => view! { <LaterPiece piece=Piece::Log /> }.into_any(),
@@ -103,9 +103,9 @@ fn Input() -> impl IntoView {
                 <Show when=move || read.mode() == Mode::Telegrams>
                     <LaterPiece piece=Piece::ProposedDevice />
                 </Show>
-                <ReadingChoices />
+                <LaterPiece piece=Piece::ReadingChoices />
                 <div class="acts">
-                    <Examples />
+                    <LaterPiece piece=Piece::Examples />
                     <OpenFile label="Open file" class="low" />
                     <Show when=move || read.mode() != Mode::Start>
                         <button type="button" class="button plain low" on:click=move |_| read.clear()>

@@ -5,7 +5,7 @@ use leptos::prelude::*;
 use super::ReadState;
 use super::examples::FirstExamples;
 use super::open_file::OpenFile;
-use crate::later::{LaterPiece, Piece};
+use super::pictures::Pictures;
 
 /// What stands over the input.
 #[component]
@@ -46,7 +46,7 @@ pub fn Start() -> impl IntoView {
             </p>
         </section>
         <div class="pictures">
-            <LaterPiece piece=Piece::Pictures />
+            <Pictures />
         </div>
         <dl class="kinds">
             <div>

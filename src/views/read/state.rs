@@ -486,17 +486,20 @@ impl ReadState {
     }
 
     fn announce(&self) {
-        let summary = self.report.get_untracked().0.summary();
-        match (summary.telegrams, summary.check_failed) {
-            (0, _) => {}
-            (n, 0) => self.toasts.announce(format!("{}, no wrong checksum", count(n, "telegram"))),
-            (n, failed) => {
-                self.toasts.announce(format!(
-                    "{}, {}",
-                    count(n, "telegram"),
-                    count(failed, "wrong checksum")
-                ));
+        let Shared(report) = self.report.get_untracked();
+        let summary = report.summary();
+        let telegrams = count(summary.telegrams, "telegram");
+        let checks = match summary.check_failed {
+            0 => "no wrong checksum".to_owned(),
+            failed => count(failed, "wrong checksum"),
+        };
+        match summary.telegrams {
+            0 => {}
+            1 => {
+                let said = report.detail(0).map_or(String::new(), |detail| detail.meaning().sentence() + ".");
+                self.toasts.announce(format!("{telegrams}, {checks}. {said}"));
             }
+            _ => self.toasts.announce(format!("{telegrams}, {checks}")),
         }
     }
 

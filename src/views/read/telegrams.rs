@@ -4,11 +4,10 @@ use leptos::prelude::*;
 
 use super::ReadState;
 use crate::address::{View, href};
-use crate::components::byte_strip::{ByteStrip, Lights, blocks};
+use crate::components::byte_strip::{ByteStrip, blocks};
 use crate::components::check_result::CheckResult;
-use crate::components::chosen_byte::ChosenByte;
-use crate::components::copy_as::CopyAs;
 use crate::components::field_table::{FieldTable, rows};
+use crate::components::fold::Fold;
 use crate::components::icon::{Glyph, Icon};
 use crate::components::problems::Problems;
 use crate::components::registers::Registers;
@@ -40,7 +39,7 @@ pub fn Telegrams() -> impl IntoView {
     });
     view! {
         <Show when=move || read.shown().is_some()>
-            {move || read.shown().map(|shown| view! { <Lead shown lights /> })}
+            <Lead />
             <section class="bytes" aria-label="Bytes">
                 {move || view! { <ByteStrip blocks lights size=size.get() /> }}
             </section>
@@ -50,7 +49,7 @@ pub fn Telegrams() -> impl IntoView {
                         {move || read.shown().map(|shown| view! { <LaterPiece piece=Piece::Causes(shown) /> })}
                     </Show>
                     <FieldTable rows lights label="Fields" />
-                    {move || read.shown().map(|shown| view! { <LaterPiece piece=Piece::More(shown, lights) /> })}
+                    <LaterPiece piece=Piece::More />
                 </section>
                 <section class="rail" aria-label="Checksum and chosen byte">
                     {move || {
@@ -58,7 +57,7 @@ pub fn Telegrams() -> impl IntoView {
                             .map(|shown| {
                                 view! {
                                     <CheckResult shown=shown.clone() lights />
-                                    <ChosenByte shown=shown.clone() lights />
+                                    <LaterPiece piece=Piece::ChosenByte(shown.clone()) />
                                     <Exchange shown />
                                 }
                             })
@@ -71,18 +70,24 @@ pub fn Telegrams() -> impl IntoView {
 
 /// What the telegram says, how that is known, and what can be done with it.
 #[component]
-fn Lead(shown: Shown, lights: Lights) -> impl IntoView {
-    let build = href(View::Build, &shown.link());
-    view! {
-        <section class="lead">
-            <div>
+fn Lead() -> impl IntoView {
+    let read = expect_context::<ReadState>();
+    let lights = read.lights;
+    let said = move || {
+        read.shown().map(|shown| {
+            view! {
                 <h2>{shown.detail.meaning().sentence()} "."</h2>
                 <Kind shown=shown.clone() />
-                <Problems shown=shown.clone() lights />
-            </div>
+                <Problems shown lights />
+            }
+        })
+    };
+    view! {
+        <section class="lead">
+            <div>{said}</div>
             <div class="acts">
-                <CopyAs shown at_end=true />
-                <a class="button" href=build>
+                <LaterPiece piece=Piece::CopyAs />
+                <a class="button" href=move || read.shown().map(|shown| href(View::Build, &shown.link()))>
                     <Icon glyph=Glyph::Edit />
                     "Edit in Build"
                 </a>
@@ -142,24 +147,23 @@ pub fn Kind(shown: Shown) -> impl IntoView {
 
 /// What is there for those who want to know more.
 #[component]
-pub fn More(shown: Shown, lights: Lights) -> impl IntoView {
-    let (note, source) = (shown.detail.note, shown.detail.source);
-    let layout = shown.report.layout(shown.index);
-    let has_registers = shown.detail.registers.is_some();
+pub fn More() -> impl IntoView {
+    let read = expect_context::<ReadState>();
+    let lights = read.lights;
+    let has_registers =
+        Memo::new(move |_| read.shown().is_some_and(|shown| shown.detail.registers.is_some()));
+    let registers = move || read.shown().map(|shown| view! { <Registers shown lights /> });
+    let structure = move || {
+        read.shown().map(|shown| {
+            let (note, source) = (shown.detail.note, shown.detail.source);
+            view! { <Structure note source layout=shown.report.layout(shown.index) /> }
+        })
+    };
     view! {
-        {has_registers
-            .then(|| {
-                view! {
-                    <details class="fold">
-                        <summary>"All interpretations of these registers"</summary>
-                        <Registers shown=shown.clone() lights />
-                    </details>
-                }
-            })}
-        <details class="fold">
-            <summary>"Structure of this telegram"</summary>
-            <Structure note source layout />
-        </details>
+        <Show when=move || has_registers.get()>
+            <Fold summary=|| "All interpretations of these registers">{registers}</Fold>
+        </Show>
+        <Fold summary=|| "Structure of this telegram">{structure}</Fold>
     }
 }
 

@@ -12,6 +12,7 @@ use crate::components::chosen_byte::ChosenByte;
 use crate::components::copy_as::CopyAs;
 use crate::components::copy_button::CopyButton;
 use crate::components::field_table::{FieldTable, rows};
+use crate::components::fold::Fold;
 use crate::components::icon::{Glyph, Icon};
 use crate::components::problems::Problems;
 use crate::components::registers::Registers;
@@ -105,7 +106,7 @@ fn Telegram(shown: Shown, current: Arc<Current>) -> impl IntoView {
         <ChosenByte shown=shown.clone() lights />
         <Causes shown=shown.clone() />
         <div class="acts">
-            <CopyAs shown=shown.clone() />
+            <CopyAs shown=Signal::stored(Some(shown.clone())) />
             <a class="button" href=href(View::Build, &link)>
                 <Icon glyph=Glyph::Edit />
                 "Edit in Build"
@@ -123,10 +124,9 @@ fn Telegram(shown: Shown, current: Arc<Current>) -> impl IntoView {
         {has_registers
             .then(|| {
                 view! {
-                    <details class="fold">
-                        <summary>"All interpretations of these registers"</summary>
+                    <Fold summary=|| "All interpretations of these registers">
                         <Registers shown=shown.clone() lights />
-                    </details>
+                    </Fold>
                 }
             })}
         <Lines text places />

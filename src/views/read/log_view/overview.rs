@@ -1,8 +1,11 @@
 //! What the log says as a whole: a sentence, its units, and what is wrong.
 
+use leptos::ev::KeyboardEvent;
+use leptos::html;
 use leptos::prelude::*;
 
 use crate::components::icon::{Glyph, Icon};
+use crate::components::roving;
 use crate::views::read::ReadState;
 use crate::views::read::reading::SeenList;
 use crate::views::read::times::duration;
@@ -117,6 +120,13 @@ fn said(unit: &Unit) -> String {
 fn Findings() -> impl IntoView {
     let log = expect_context::<ReadState>().log;
     let remarks = move || log.overview.with(|it| it.as_ref().map_or(Vec::new(), |it| it.remarks.clone()));
+    let list = NodeRef::<html::Ol>::new();
+    // The finding that Tab leads to.
+    let stop = RwSignal::new(0);
+    let keys = move |event: KeyboardEvent| {
+        let to = list.get_untracked().and_then(|list| roving::follow(&event, &list, "button"));
+        to.into_iter().for_each(|to| stop.set(to));
+    };
     let finding = move |(index, found): (usize, Found)| {
         // The first sentence says what it is, the others what to do.
         let (what, advice) = match found.text.split_once(". ") {
@@ -128,12 +138,15 @@ fn Findings() -> impl IntoView {
             <li>
                 <button
                     type="button"
+                    tabindex=move || if stop.get() == index { "0" } else { "-1" }
                     aria-pressed=move || (log.finding.get() == Some(index)).to_string()
-                    title=found.text
-                    on:click=move |_| log.follow(index)
+                    on:click=move |_| {
+                        stop.set(index);
+                        log.follow(index);
+                    }
                 >
                     <Icon glyph=Glyph::Warning />
-                    <span class="text">
+                    <span class="text" title=found.text>
                         <b>{what}</b>
                         " "
                         <span class="soft">{advice}</span>
@@ -155,6 +168,13 @@ fn Findings() -> impl IntoView {
             return view! { <ul class="findings none note">{sentences}</ul> }.into_any();
         }
         let findings = findings.into_iter().enumerate().map(finding).collect_view();
-        view! { <ol class="findings" aria-label="What the log shows to be wrong">{findings}</ol> }.into_any()
+        // Others than before have a first one, too.
+        stop.set(0);
+        view! {
+            <ol class="findings" aria-label="What the log shows to be wrong" node_ref=list on:keydown=keys>
+                {findings}
+            </ol>
+        }
+        .into_any()
     }
 }

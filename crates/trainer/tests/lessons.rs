@@ -1,0 +1,203 @@
+//! Every lesson that comes with Buslens: nothing in its text is a mistake, everything it says holds, each task
+//! takes the right answer, and says of a wrong one what is off.
+
+use buslens_trainer::lesson::{Ask, Exercise, LESSONS, Lesson, Step, read};
+use buslens_trainer::{Answer, Verdict, grade};
+
+fn lessons() -> Vec<Lesson> {
+    LESSONS.iter().map(|text| read(text).0).collect()
+}
+
+fn exercises(mut visit: impl FnMut(&Step, &Exercise, &str)) {
+    for lesson in lessons() {
+        for (step, number) in lesson.steps.iter().zip(1..) {
+            let exercise = step.exercise.as_ref().expect("each step has something to do");
+            visit(step, exercise, &format!("{}.{number}", lesson.key));
+        }
+    }
+}
+
+#[test]
+fn nothing_in_a_lesson_is_a_mistake() {
+    let mut found = String::new();
+    for text in LESSONS {
+        let (lesson, mut mistakes) = read(text);
+        mistakes.extend(lesson.mistakes());
+        for mistake in mistakes {
+            found += &format!("{}, line {}: {}\n", lesson.key, mistake.line, mistake.said);
+        }
+    }
+    assert!(found.is_empty(), "{found}");
+}
+
+#[test]
+fn every_lesson_is_whole() {
+    let mut keys = Vec::new();
+    for lesson in lessons() {
+        assert!(!lesson.group.is_empty() && lesson.about.ends_with('.') && lesson.minutes > 0, "{}", lesson.key);
+        assert!(lesson.steps.len() >= 4, "{}", lesson.key);
+        keys.push(lesson.key);
+    }
+    let count = keys.len();
+    keys.sort();
+    keys.dedup();
+    assert_eq!(keys.len(), count);
+    let folder = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../../lessons")).unwrap();
+    assert_eq!(folder.count(), count, "each file of the folder is listed");
+}
+
+#[test]
+fn every_task_has_three_hints_and_a_last_word() {
+    exercises(|_, exercise, place| {
+        assert_eq!(exercise.hints.len(), 3, "{place}");
+        assert!(!exercise.then.is_empty() && !exercise.question.is_empty(), "{place}");
+    });
+}
+
+/// First it is shown, then there are blanks, then one's own, then one to repair.
+#[test]
+fn every_lesson_leads_from_the_example_to_the_repair() {
+    for lesson in lessons() {
+        let asks: Vec<&Ask> = lesson.steps.iter().map(|step| &step.exercise.as_ref().unwrap().ask).collect();
+        let last = asks.last().unwrap();
+        let repairs = matches!(last, Ask::Repair { .. } | Ask::Choose { .. });
+        assert!(repairs, "{}: the last one is a broken one", lesson.key);
+    }
+}
+
+#[test]
+fn the_right_answer_is_right() {
+    exercises(|step, exercise, place| {
+        let answer = exercise.answer(step).unwrap_or_else(|| panic!("{place} has no answer"));
+        let verdict = exercise.grade(step, &answer);
+        assert!(verdict.is_right(), "{place}: {answer:?} is {verdict:?}");
+    });
+}
+
+/// Answers that are wrong, of the kind that somebody gives.
+fn wrong(step: &Step, exercise: &Exercise) -> Vec<Answer> {
+    let telegram = exercise.telegram(step).map(|telegram| telegram.bytes);
+    match &exercise.ask {
+        Ask::Choose { choices, right } => {
+            (0..choices.len()).filter(|at| at != right).map(Answer::Choice).collect()
+        }
+        Ask::Number { wrong, .. } => {
+            let own = wrong.iter().map(|(value, _)| Answer::Text(value.to_string()));
+            own.chain([Answer::Text("1".to_owned())]).collect()
+        }
+        Ask::Point { .. } => {
+            let Some(Answer::Byte(right)) = exercise.answer(step) else { panic!("a byte") };
+            let report = step.report();
+            let bytes = &report.telegrams.last().unwrap().line.bytes;
+            (0..bytes.len()).filter(|at| at.abs_diff(right) > 3).map(Answer::Byte).collect()
+        }
+        Ask::Blank { fields, .. } => {
+            let Some(Answer::Blanks(right)) = exercise.answer(step) else { panic!("blanks") };
+            (0..fields.len())
+                .map(|at| {
+                    let mut texts = right.clone();
+                    let mut bytes = buslens::tool::steps::bytes(&texts[at]);
+                    *bytes.last_mut().unwrap() ^= 0x11;
+                    texts[at] = buslens::field::hex(&bytes);
+                    Answer::Blanks(texts)
+                })
+                .collect()
+        }
+        Ask::Build { .. } | Ask::Repair { .. } => {
+            let bytes = telegram.unwrap();
+            let changed = (0..bytes.len() - 2).map(|at| {
+                let mut bytes = bytes.clone();
+                bytes[at] ^= 0x05;
+                Answer::Text(buslens::field::hex(&bytes[..bytes.len() - 2]))
+            });
+            changed.collect()
+        }
+        Ask::Bits { from, .. } => vec![Answer::Text(buslens::field::hex(from))],
+    }
+}
+
+#[test]
+fn a_wrong_answer_hears_what_is_off() {
+    exercises(|step, exercise, place| {
+        let answers = wrong(step, exercise);
+        assert!(!answers.is_empty(), "{place}");
+        for answer in answers {
+            match exercise.grade(step, &answer) {
+                Verdict::Wrong(remarks) => {
+                    assert!(remarks.iter().all(|remark| !remark.text.to_string().is_empty()), "{place}");
+                    if let Ask::Build { .. } | Ask::Repair { .. } | Ask::Blank { .. } = exercise.ask {
+                        assert!(!remarks[0].field.is_empty(), "{place}: {answer:?}: {remarks:?}");
+                    }
+                }
+                other => panic!("{place}: {answer:?} is {other:?}"),
+            }
+        }
+    });
+}
+
+#[test]
+fn what_was_damaged_is_not_right_yet() {
+    exercises(|step, exercise, place| {
+        if let Ask::Repair { damaged, .. } = &exercise.ask {
+            let verdict = exercise.grade(step, &Answer::Text(damaged.clone()));
+            assert!(!verdict.is_right(), "{place}");
+        }
+    });
+}
+
+/// What is no pointing and no switching is a task like those of practice.
+#[test]
+fn tasks_are_graded_as_tasks() {
+    exercises(|step, exercise, _| {
+        if let (Some(task), Some(answer)) = (exercise.task(step), exercise.answer(step)) {
+            assert!(grade(&task, &answer).is_right());
+        }
+    });
+}
+
+/// Whatever stands in a file, it is read, and the lines of its mistakes are those of the file.
+#[test]
+fn no_text_is_too_strange() {
+    let whole = LESSONS[1];
+    for at in (0..whole.len()).filter(|at| whole.is_char_boundary(*at)).step_by(37) {
+        let text = format!("{}{}", &whole[..at], &whole[(at + 11).min(whole.len())..].trim_start_matches('\u{80}'));
+        let (lesson, mistakes) = read(&text);
+        let lines = text.lines().count().max(1);
+        assert!(mistakes.iter().chain(&lesson.mistakes()).all(|it| (1..=lines).contains(&it.line)), "at {at}");
+    }
+    for text in ["", "\n", "#", "# ", "## ", "- a: b", "| 01", "task: x", "# A\n## B\ntask: c\nblank: in in in\n", "\u{feff}# A"] {
+        let (lesson, _) = read(text);
+        lesson.mistakes();
+    }
+    read(&"a".repeat(1_000_000));
+    read(&"## b\n".repeat(100_000));
+}
+
+/// Each mistake says what was expected.
+#[test]
+fn a_mistake_is_told_with_its_line() {
+    let text = |more: &str| format!("# T\nkey: t\n## S\ntelegram: 01 03 00 C8 00 03 84 35\n{more}");
+    for (more, line, said) in [
+        ("- Quantitty: how many", 5, "no field “Quantitty”. It has: Unit address, Function code"),
+        ("- bytes 6-9: what", 5, "bytes 0 to 7"),
+        ("- Quantity how many", 5, "Expected “- Field: what to say of it”"),
+        ("holds: Quantity = 4", 5, "“Quantity” is 3 or 00 03, not 4"),
+        ("hnt: look", 5, "“hnt” is no key"),
+        ("hint: look", 5, "belongs to a task"),
+        ("task: what\nhint: look", 5, "The task needs what is right"),
+        ("task: what\nright: a\nwrong: b", 7, "who is wrong wants to know why"),
+        ("task: what\nnumber: Colour", 5, "no field"),
+        ("task: what\nbuild: 01 03 00 C8 00 03 84 36", 5, "no telegram with a valid checksum"),
+        ("device: telex", 5, "Known are: "),
+        ("show: film", 5, "What can be shown is"),
+        ("{Colour} is nice.", 3, "{Colour}"),
+        ("telegram: hello", 5, "not one telegram"),
+        ("key: Word Order", 5, "above the first step"),
+        ("# Another", 5, "one lesson"),
+    ] {
+        let (lesson, mut mistakes) = read(&text(more));
+        mistakes.extend(lesson.mistakes());
+        let found = mistakes.iter().any(|mistake| mistake.line == line && mistake.said.contains(said));
+        assert!(found, "{more:?}: {mistakes:?}");
+    }
+}

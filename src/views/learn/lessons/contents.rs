@@ -1,0 +1,182 @@
+//! The list of lessons: beside a step, and as the first page.
+
+use leptos::prelude::*;
+
+use super::files::Files;
+use super::state::{Course, Here, LessonsState, link_to};
+use crate::components::icon::{Glyph, Icon};
+use crate::views::learn::LearnState;
+
+fn state() -> LessonsState {
+    expect_context::<LearnState>().lessons
+}
+
+/// The lessons under their groups, both in their order.
+fn grouped(courses: Vec<Course>) -> Vec<(String, Vec<(usize, Course)>)> {
+    let mut groups: Vec<(String, Vec<(usize, Course)>)> = Vec::new();
+    for (course, number) in courses.into_iter().zip(1..) {
+        let name = match course.lesson.group.as_str() {
+            "" => "Your own".to_owned(),
+            group => group.to_owned(),
+        };
+        match groups.iter_mut().find(|(group, _)| *group == name) {
+            Some((_, courses)) => courses.push((number, course)),
+            None => groups.push((name, vec![(number, course)])),
+        }
+    }
+    groups
+}
+
+/// The number of a lesson, or a tick where it is done.
+#[component]
+fn Sign(number: usize, course: Course) -> impl IntoView {
+    let state = state();
+    let done = Memo::new(move |_| state.count(&course.lesson) == course.lesson.steps.len());
+    view! {
+        <span class="sign" class:done=move || done.get()>
+            {move || {
+                if done.get() {
+                    view! {
+                        <Icon glyph=Glyph::Tick />
+                        <span class="unseen">"Done: "</span>
+                    }
+                        .into_any()
+                } else {
+                    view! { {number} }.into_any()
+                }
+            }}
+        </span>
+    }
+}
+
+/// All lessons, beside the one that is open.
+#[component]
+pub fn Contents(here: Here) -> impl IntoView {
+    let state = state();
+    let open = here.course.lesson.key.clone();
+    let group = move |(name, courses): (String, Vec<(usize, Course)>)| {
+        let entry = |(number, course): (usize, Course)| {
+            let here = (course.lesson.key == open).then_some("page");
+            let to = link_to(&course.lesson, untrack(|| state.next(&course.lesson)));
+            view! {
+                <li>
+                    <a href=to aria-current=here>
+                        <Sign number course=course.clone() />
+                        {course.lesson.title.clone()}
+                    </a>
+                </li>
+            }
+        };
+        view! {
+            <section>
+                <h3>{name}</h3>
+                <ol>{courses.into_iter().map(entry).collect_view()}</ol>
+            </section>
+        }
+    };
+    view! {
+        <nav class="contents" aria-label="All lessons">
+            <details open=wide()>
+                <summary>"All lessons"</summary>
+                {move || grouped(state.courses()).into_iter().map(&group).collect_view()}
+            </details>
+        </nav>
+    }
+}
+
+/// Whether there is room for the list beside a step.
+fn wide() -> bool {
+    window().match_media("(width >= 1000px)").ok().flatten().is_some_and(|media| media.matches())
+}
+
+/// The first page.
+#[component]
+pub fn Overview() -> impl IntoView {
+    let state = state();
+    let all = move || state.courses();
+    let steps = move || {
+        let all = all();
+        let done: usize = all.iter().map(|course| state.count(&course.lesson)).sum();
+        (done, all.iter().map(|course| course.lesson.steps.len()).sum::<usize>())
+    };
+    // Who comes for the first time begins at the beginning; others go on.
+    let go_on = move || {
+        let all = all();
+        let unfinished = |course: &&Course| state.count(&course.lesson) < course.lesson.steps.len();
+        let begun = all.iter().filter(unfinished).find(|course| state.count(&course.lesson) > 0);
+        let next = begun.or_else(|| all.iter().find(unfinished)).cloned()?;
+        let step = state.next(&next.lesson);
+        let label = if steps().0 == 0 { "Begin with “" } else { "Go on with “" };
+        Some(view! {
+            <a class="button main" href=link_to(&next.lesson, step)>
+                {label}
+                {next.lesson.title.clone()}
+                "”"
+                <Icon glyph=Glyph::Forward />
+            </a>
+        })
+    };
+    let so_far = move || match steps() {
+        (0, _) => "Take them in any order; each lasts a few minutes. All you do stays in this browser.".to_owned(),
+        (done, all) if done == all => format!("All {all} steps are done."),
+        (done, all) => format!("{done} of {all} steps are done."),
+    };
+    let group = move |(name, courses): (String, Vec<(usize, Course)>)| {
+        let entry = move |(number, course): (usize, Course)| {
+            let lesson = course.lesson.clone();
+            let to = link_to(&lesson, untrack(|| state.next(&lesson)));
+            let removable = course.own.then(|| {
+                let course = course.clone();
+                view! {
+                    <button
+                        type="button"
+                        class="button low plain icon-only"
+                        aria-label=format!("Remove “{}”", course.lesson.title)
+                        on:click=move |_| state.remove(&course)
+                    >
+                        <Icon glyph=Glyph::Close />
+                    </button>
+                }
+            });
+            let far = {
+                let lesson = lesson.clone();
+                move || match (state.count(&lesson), lesson.steps.len()) {
+                    (0, _) => format!("{} min", lesson.minutes.max(1)),
+                    (done, steps) if done == steps => "done".to_owned(),
+                    (done, steps) => format!("{done} of {steps}"),
+                }
+            };
+            view! {
+                <li>
+                    <a href=to>
+                        <Sign number course=course.clone() />
+                        <b>{lesson.title.clone()}</b>
+                        <span class="about">{lesson.about.clone()}</span>
+                        <span class="far">{far}</span>
+                    </a>
+                    {removable}
+                </li>
+            }
+        };
+        view! {
+            <section>
+                <h3>{name}</h3>
+                <ol>{courses.into_iter().map(entry).collect_view()}</ol>
+            </section>
+        }
+    };
+    view! {
+        <div class="overview">
+            <header>
+                <h2>"Field buses, byte by byte"</h2>
+                <p>
+                    "Short lessons on real telegrams. In each you first look, then fill in, then build, then mend something that is broken. "
+                    {so_far}
+                </p>
+                {go_on}
+            </header>
+            {move || grouped(state.courses()).into_iter().map(group).collect_view()}
+            <Files />
+        </div>
+    }
+}
