@@ -1,5 +1,6 @@
 """scapy: its layers for Modbus TCP, shown one telegram at a time."""
 
+import json
 import logging
 
 import data
@@ -11,14 +12,14 @@ logging.disable(logging.CRITICAL)
 
 
 def decode(telegram):
-    """All fields of a telegram, of the layer that leaves nothing over."""
+    """All fields of a telegram as JSON, of the layer that leaves nothing over."""
     for layer in (ModbusADURequest, ModbusADUResponse):
         try:
             packet = layer(telegram)
         except Exception:  # What it cannot read it may say in any way.
             continue
         if packet.payload and not packet.haslayer(Raw) and bytes(packet) == telegram:
-            return [(part.name, part.fields) for part in packet.iterpayloads()]
+            return json.dumps([(part.name, part.fields) for part in packet.iterpayloads()], default=str)
     return None
 
 

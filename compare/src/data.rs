@@ -12,7 +12,6 @@ pub type Spans = Vec<(usize, usize)>;
 pub struct Data {
     /// Telegrams of Modbus RTU, one behind the other.
     pub stream: Vec<u8>,
-    pub telegrams: usize,
     /// The same with noise between some, and bits turned in others; where the intact ones are.
     pub noise: (Vec<u8>, Spans),
     /// Telegrams of Modbus TCP: answers out of order, functions that nobody knows, and random contents.
@@ -26,12 +25,7 @@ const MOST_REGISTERS: usize = 16;
 impl Data {
     pub fn new() -> Self {
         let stream = telegrams(2026, 200_000);
-        Self {
-            telegrams: stream.len(),
-            stream: stream.iter().flat_map(Sent::rtu).collect(),
-            noise: noise(),
-            odd: odd(),
-        }
+        Self { stream: stream.iter().flat_map(Sent::rtu).collect(), noise: noise(), odd: odd() }
     }
 }
 

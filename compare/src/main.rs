@@ -21,7 +21,7 @@ pub struct Measured {
     pub name: String,
     /// Telegrams a second that are split and checked.
     pub split: Option<f64>,
-    /// Telegrams a second that are decoded, with all their fields.
+    /// Telegrams a second that are decoded to JSON, with all their fields.
     pub decoded: Option<f64>,
     /// Of the intact telegrams between noise, how many are found, and how many besides.
     pub noise: Option<(usize, usize)>,
@@ -54,7 +54,7 @@ fn main() {
 
 fn print_table(rows: &[Measured], data: &Data) {
     println!(
-        "| | split and checked, telegrams/s | decoded with all fields, telegrams/s | found in noise, of {} | invented in noise | odd telegrams told, of {} |",
+        "| | split and checked, telegrams/s | decoded to JSON with all fields, telegrams/s | found in noise, of {} | invented in noise | odd telegrams told, of {} |",
         grouped(data.noise.1.len()),
         grouped(data.odd.1.len())
     );
@@ -87,16 +87,16 @@ fn grouped(number: usize) -> String {
     text
 }
 
-/// How many of `count` things a second `work` does: the best of some tries.
-fn speed(count: usize, mut work: impl FnMut()) -> f64 {
+/// How many things a second `work` does, which tells how many it did: the best of some tries.
+fn speed(mut work: impl FnMut() -> usize) -> f64 {
     const TRIES: usize = 15;
     let began = Instant::now();
     let tries = (0..TRIES).map(|_| {
         let start = time(began);
-        work();
-        time(began) - start
+        let count = work();
+        count as f64 / (time(began) - start).as_secs_f64()
     });
-    count as f64 / tries.min().unwrap_or(Duration::MAX).as_secs_f64()
+    tries.fold(0.0, f64::max)
 }
 
 /// The time of the processor that this thread took, where the system tells it, so that others beside it count for

@@ -1,7 +1,7 @@
 //! Lessons: every one is done rightly and wrongly, as somebody does it in the page.
 
-use buslens_trainer::lesson::{Ask, Exercise, LESSONS, Lesson, Step, read};
 use buslens_trainer::Answer;
+use buslens_trainer::lesson::{Ask, Exercise, LESSONS, Lesson, Step, read};
 use page_tests::{DESKTOP, NARROW, PHONE, Page, Result};
 use serde_json::json;
 
@@ -17,7 +17,9 @@ fn wrong(step: &Step, exercise: &Exercise, right: &Answer) -> Answer {
             let length = step.report().telegrams.last().unwrap().line.bytes.len();
             Answer::Byte(if *at > length / 2 { 0 } else { length - 1 })
         }
-        (Ask::Blank { .. }, Answer::Blanks(texts)) => Answer::Blanks(texts.iter().map(|text| text.replace(|c: char| c != ' ', "9")).collect()),
+        (Ask::Blank { .. }, Answer::Blanks(texts)) => {
+            Answer::Blanks(texts.iter().map(|text| text.replace(|c: char| c != ' ', "9")).collect())
+        }
         (Ask::Bits { from, .. }, _) => Answer::Text(buslens::field::hex(from)),
         (Ask::Number { .. }, _) => Answer::Text("7777".to_owned()),
         _ => Answer::Text("01 02 03 04 05 06".to_owned()),
@@ -33,19 +35,28 @@ async fn give(page: &Page, exercise: &Exercise, answer: &Answer) -> Result {
     let (script, what) = match (&exercise.ask, answer) {
         (Ask::Bits { to, .. }, Answer::Text(text)) => {
             let wanted = buslens::tool::steps::bytes(text);
-            let bits: Vec<u8> = wanted.iter().flat_map(|byte| (0..8).rev().map(move |bit| byte >> bit & 1)).collect();
+            let bits: Vec<u8> =
+                wanted.iter().flat_map(|byte| (0..8).rev().map(move |bit| byte >> bit & 1)).collect();
             assert_eq!(bits.len(), 8 * to.len());
-            ("[...document.querySelectorAll('.switches button')].forEach((it, at) => { \
-              if ((it.getAttribute('aria-checked') == 'true') != (arguments[0][at] == 1)) it.click() });", json!(bits))
+            (
+                "[...document.querySelectorAll('.switches button')].forEach((it, at) => { \
+              if ((it.getAttribute('aria-checked') == 'true') != (arguments[0][at] == 1)) it.click() });",
+                json!(bits),
+            )
         }
-        (_, Answer::Text(text)) => ("set(document.querySelector('.task .entry input'), arguments[0]);", json!(text)),
+        (_, Answer::Text(text)) => {
+            ("set(document.querySelector('.task .entry input'), arguments[0]);", json!(text))
+        }
         (_, Answer::Choice(index)) => {
             ("document.querySelectorAll('.choices input')[arguments[0]].click();", json!(index))
         }
-        (_, Answer::Byte(at)) => ("document.querySelectorAll('.task .byte-strip button')[arguments[0]].click();", json!(at)),
-        (_, Answer::Blanks(texts)) => {
-            ("[...document.querySelectorAll('.blanks input')].forEach((it, at) => set(it, arguments[0][at]));", json!(texts))
+        (_, Answer::Byte(at)) => {
+            ("document.querySelectorAll('.task .byte-strip button')[arguments[0]].click();", json!(at))
         }
+        (_, Answer::Blanks(texts)) => (
+            "[...document.querySelectorAll('.blanks input')].forEach((it, at) => set(it, arguments[0][at]));",
+            json!(texts),
+        ),
     };
     page.driver.execute(format!("{SET} {script}"), vec![what]).await?;
     page.settle().await?;
@@ -74,7 +85,12 @@ async fn every_lesson_is_finished_wrongly_and_rightly() -> Result {
             let said = page.text(".task .outcome.off").await?;
             assert!(said.len() > 12, "{place}: {said}");
             give(&page, exercise, &right).await?;
-            assert_eq!(page.count(".task .outcome.right").await?, 1, "{place}: the right answer, but {:?}", page.texts(".task .outcome").await?);
+            assert_eq!(
+                page.count(".task .outcome.right").await?,
+                1,
+                "{place}: the right answer, but {:?}",
+                page.texts(".task .outcome").await?
+            );
         }
         assert_eq!(page.accessibility().await?, [""; 0], "{}", lesson.key);
     }
@@ -167,7 +183,9 @@ async fn a_trainer_opens_a_lesson_of_his_own() -> Result {
     page.until(".overview", "Our own").await?;
     page.go("#/learn?place=lessons.our-own.1").await?;
     page.until(".spoken", "3 registers.").await?;
-    page.driver.execute(format!("{SET} set(document.querySelector('.task .entry input'), '3')"), vec![]).await?;
+    page.driver
+        .execute(format!("{SET} set(document.querySelector('.task .entry input'), '3')"), vec![])
+        .await?;
     page.press_button("Check my answer").await?;
     page.until(".outcome.right", "Right").await?;
     page.driver.execute("location.hash = '#/learn?place=lessons'", vec![]).await?;

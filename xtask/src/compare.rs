@@ -27,7 +27,7 @@ pub fn run() -> Result {
         }
     }
     println!("modbus-serial is left out: it is a client, and takes no bytes that it did not ask for.");
-    let compare = ["run", "--quiet", "--release", "--package", "compare", "--"];
+    let compare = ["run", "--quiet", "--profile", "bench", "--package", "compare", "--"];
     steps::run(tools::cargo().args(compare).arg(&folder))?;
     let page = Path::new("dist");
     if !page.join("index.html").exists() {

@@ -34,7 +34,11 @@ fn nothing_in_a_lesson_is_a_mistake() {
 fn every_lesson_is_whole() {
     let mut keys = Vec::new();
     for lesson in lessons() {
-        assert!(!lesson.group.is_empty() && lesson.about.ends_with('.') && lesson.minutes > 0, "{}", lesson.key);
+        assert!(
+            !lesson.group.is_empty() && lesson.about.ends_with('.') && lesson.minutes > 0,
+            "{}",
+            lesson.key
+        );
         assert!(lesson.steps.len() >= 4, "{}", lesson.key);
         keys.push(lesson.key);
     }
@@ -160,12 +164,27 @@ fn tasks_are_graded_as_tasks() {
 fn no_text_is_too_strange() {
     let whole = LESSONS[1];
     for at in (0..whole.len()).filter(|at| whole.is_char_boundary(*at)).step_by(37) {
-        let text = format!("{}{}", &whole[..at], &whole[(at + 11).min(whole.len())..].trim_start_matches('\u{80}'));
+        let text =
+            format!("{}{}", &whole[..at], &whole[(at + 11).min(whole.len())..].trim_start_matches('\u{80}'));
         let (lesson, mistakes) = read(&text);
         let lines = text.lines().count().max(1);
-        assert!(mistakes.iter().chain(&lesson.mistakes()).all(|it| (1..=lines).contains(&it.line)), "at {at}");
+        assert!(
+            mistakes.iter().chain(&lesson.mistakes()).all(|it| (1..=lines).contains(&it.line)),
+            "at {at}"
+        );
     }
-    for text in ["", "\n", "#", "# ", "## ", "- a: b", "| 01", "task: x", "# A\n## B\ntask: c\nblank: in in in\n", "\u{feff}# A"] {
+    for text in [
+        "",
+        "\n",
+        "#",
+        "# ",
+        "## ",
+        "- a: b",
+        "| 01",
+        "task: x",
+        "# A\n## B\ntask: c\nblank: in in in\n",
+        "\u{feff}# A",
+    ] {
         let (lesson, _) = read(text);
         lesson.mistakes();
     }

@@ -28,9 +28,14 @@ impl Step {
         let report = self.report();
         if report.telegrams.len() != self.telegrams.len() {
             // Which one it is tells best who reads each by itself.
-            let alone = self.telegrams.iter().find(|it| decode(&it.text, self.options()).telegrams.len() != 1);
+            let alone =
+                self.telegrams.iter().find(|it| decode(&it.text, self.options()).telegrams.len() != 1);
             let line = alone.map_or(self.line, |telegram| telegram.line);
-            say(found, line, "This is not one telegram. Expected bytes such as 01 03 00 C8 00 03 84 35, one telegram a line.");
+            say(
+                found,
+                line,
+                "This is not one telegram. Expected bytes such as 01 03 00 C8 00 03 84 35, one telegram a line.",
+            );
             return;
         }
         for (index, telegram) in self.telegrams.iter().enumerate() {
@@ -55,7 +60,11 @@ impl Step {
         }
         for text in &self.text {
             if let Err(name) = self.filled(text, &report) {
-                say(found, self.line, format!("In the text of this step, {{{name}}} is nothing that its telegrams say."));
+                say(
+                    found,
+                    self.line,
+                    format!("In the text of this step, {{{name}}} is nothing that its telegrams say."),
+                );
             }
         }
         if matches!(self.show, Show::Sides | Show::Checksum | Show::Line(_)) && self.telegrams.is_empty() {
@@ -68,7 +77,8 @@ impl Step {
             match self.says(statement, &report) {
                 Ok(values) if values.iter().any(|value| *value == statement.value) => {}
                 Ok(values) => {
-                    let said = format!("“{}” is {}, not {}.", statement.name, values.join(" or "), statement.value);
+                    let said =
+                        format!("“{}” is {}, not {}.", statement.name, values.join(" or "), statement.value);
                     say(found, statement.line, said);
                 }
                 Err(said) => say(found, statement.line, said),
@@ -128,7 +138,9 @@ impl Step {
             "unanswered" => summary.unanswered,
             "damaged" => summary.check_failed,
             "finding" => return Ok(self.findings().into_iter().map(|(code, _)| code).collect()),
-            _ => return Err("Of a log hold: telegrams, answered, unanswered, damaged and finding.".to_owned()),
+            _ => {
+                return Err("Of a log hold: telegrams, answered, unanswered, damaged and finding.".to_owned());
+            }
         };
         Ok(vec![number.to_string()])
     }

@@ -138,7 +138,9 @@ impl Exercise {
         let mut say = |said: String| found.push(Mistake { line: self.line, said });
         for text in [&self.question, &self.then].into_iter().chain(&self.hints) {
             if let Err(name) = step.filled(text, report) {
-                say(format!("In the words of this task, {{{name}}} is nothing that the telegrams of its step say."));
+                say(format!(
+                    "In the words of this task, {{{name}}} is nothing that the telegrams of its step say."
+                ));
             }
         }
         let last = report.telegrams.len().checked_sub(1).and_then(|last| report.detail(last));
@@ -155,13 +157,17 @@ impl Exercise {
                     all.filter(|name| field(&detail, name).is_none())
                         .for_each(|name| say(unknown(name, &names(&detail))));
                 }
-                None => say("What is to be found stands in a telegram of the step, and there is none.".to_owned()),
+                None => {
+                    say("What is to be found stands in a telegram of the step, and there is none.".to_owned())
+                }
             },
             Ask::Blank { telegram, fields } => match known(telegram, &step.options()) {
                 Some(telegram) => {
                     let detail = telegram.detail();
                     for name in fields {
-                        if let Some(detail) = &detail && field(detail, name).is_none() {
+                        if let Some(detail) = &detail
+                            && field(detail, name).is_none()
+                        {
                             say(unknown(name, &names(detail)));
                         }
                     }
@@ -250,7 +256,11 @@ fn point(step: &Step, name: &str, wrong: &[(String, String)], at: usize) -> Verd
         return Verdict::Unread(message!("there is no byte {n}", n = at));
     };
     let label = other.label().to_string();
-    wrong_with(&label, message!("byte {n} belongs to another field: {label}", n = at, label = label.clone()), Some(other.span))
+    wrong_with(
+        &label,
+        message!("byte {n} belongs to another field: {label}", n = at, label = label.clone()),
+        Some(other.span),
+    )
 }
 
 /// Whether bits are set as they should be.
@@ -286,7 +296,11 @@ fn set(to: &[u8], float: bool, given: &[u8]) -> Verdict {
     }
     let highest = 63 - off.leading_zeros();
     let text = match number(given) >> highest & 1 {
-        1 => message!("bit {n} is worth {weight}: that is too much here", n = highest, weight = 1_u64 << highest),
+        1 => message!(
+            "bit {n} is worth {weight}: that is too much here",
+            n = highest,
+            weight = 1_u64 << highest
+        ),
         _ => message!("bit {n}, worth {weight}, is missing", n = highest, weight = 1_u64 << highest),
     };
     wrong_with(&format!("bit {highest}"), text, None)

@@ -20,7 +20,10 @@ pub fn read(text: &str) -> (Lesson, Vec<Mistake>) {
     let mut lines = text.trim_start_matches('\u{feff}').lines().zip(1..).peekable();
     while let Some((line, number)) = lines.next() {
         if number > MOST_LINES {
-            reader.say(number, format!("A lesson has at most {MOST_LINES} lines: this and the rest is left out."));
+            reader.say(
+                number,
+                format!("A lesson has at most {MOST_LINES} lines: this and the rest is left out."),
+            );
             break;
         }
         if line.len() > LONGEST_LINE {
@@ -90,7 +93,10 @@ impl Reader {
             self.step = Some(Step { title: title.trim().to_owned(), line: number, ..Step::default() });
         } else if let Some(title) = line.strip_prefix("# ") {
             if !self.lesson.title.is_empty() {
-                self.say(number, "A file holds one lesson, and this line begins a second one. A step begins with “## ”.");
+                self.say(
+                    number,
+                    "A file holds one lesson, and this line begins a second one. A step begins with “## ”.",
+                );
             } else {
                 self.lesson.title = title.trim().to_owned();
             }
@@ -110,7 +116,10 @@ impl Reader {
 
     fn take_text(&mut self, line: &str, number: usize) {
         let Some(step) = &mut self.step else {
-            self.say(number, "Text belongs to a step, and a step begins with a line such as “## The first byte”.");
+            self.say(
+                number,
+                "Text belongs to a step, and a step begins with a line such as “## The first byte”.",
+            );
             return;
         };
         if self.exercise.is_some() {
@@ -125,7 +134,10 @@ impl Reader {
 
     fn take_log(&mut self, logged: &str, number: usize) {
         let Some(step) = &mut self.step else {
-            self.say(number, "A log belongs to a step, and a step begins with a line such as “## The first byte”.");
+            self.say(
+                number,
+                "A log belongs to a step, and a step begins with a line such as “## The first byte”.",
+            );
             return;
         };
         step.log.push_str(logged.strip_prefix(' ').unwrap_or(logged));
@@ -138,7 +150,10 @@ impl Reader {
     fn take_remark(&mut self, remark: &str, number: usize) {
         let last = self.step.as_mut().and_then(|step| step.telegrams.last_mut());
         let Some(telegram) = last.filter(|_| self.exercise.is_none()) else {
-            self.say(number, "A line with “- ” says something of a telegram: it stands below a line “telegram: …”.");
+            self.say(
+                number,
+                "A line with “- ” says something of a telegram: it stands below a line “telegram: …”.",
+            );
             return;
         };
         let Some((place, text)) = remark.split_once(": ").filter(|(_, text)| !text.trim().is_empty()) else {
@@ -164,22 +179,32 @@ impl Reader {
                     self.take_of_task(&mut draft, key, value, number);
                     self.exercise = Some(draft);
                 }
-                None => self.say(number, format!("“{key}:” belongs to a task: it stands below a line “task: …”.")),
+                None => {
+                    self.say(number, format!("“{key}:” belongs to a task: it stands below a line “task: …”."))
+                }
             }
         } else {
             let known = [OF_LESSON, OF_STEP, OF_TASK].concat().join(", ");
-            self.say(number, format!("“{key}” is no key. The keys are: {known}. Text begins with a capital letter."));
+            self.say(
+                number,
+                format!("“{key}” is no key. The keys are: {known}. Text begins with a capital letter."),
+            );
         }
     }
 
     fn take_of_lesson(&mut self, key: &str, value: &str, number: usize) {
         if self.step.is_some() {
-            self.say(number, format!("“{key}:” is said of the whole lesson: it stands above the first step."));
+            self.say(
+                number,
+                format!("“{key}:” is said of the whole lesson: it stands above the first step."),
+            );
             return;
         }
         match key {
             "key" if is_key(value) => self.lesson.key = value.to_owned(),
-            "key" => self.say(number, "A key is one word of small letters, digits and “-”, such as “word-order”."),
+            "key" => {
+                self.say(number, "A key is one word of small letters, digits and “-”, such as “word-order”.")
+            }
             "group" => self.lesson.group = value.to_owned(),
             "about" => self.lesson.about = value.to_owned(),
             _ => match value.parse() {
@@ -321,7 +346,10 @@ impl Reader {
         let missing = [
             (title.is_empty(), "A lesson begins with its title, such as “# Bytes and hex”."),
             (key.is_empty(), "A lesson needs a key for links, such as “key: bytes”."),
-            (steps.is_empty(), "A lesson needs a step, which begins with a line such as “## The first byte”."),
+            (
+                steps.is_empty(),
+                "A lesson needs a step, which begins with a line such as “## The first byte”.",
+            ),
         ];
         let missing = missing.into_iter().filter(|(is, _)| *is).map(|(_, said)| said);
         self.mistakes.extend(missing.map(|said| Mistake { line: 1, said: said.to_owned() }));
@@ -363,7 +391,13 @@ fn show(word: &str) -> Option<Show> {
         "sides" => Show::Sides,
         "checksum" => Show::Checksum,
         "log" => Show::Log,
-        _ => Show::Line(word.strip_prefix("line ")?.trim().parse().ok().filter(|rate| (300..=12_000_000).contains(rate))?),
+        _ => Show::Line(
+            word.strip_prefix("line ")?
+                .trim()
+                .parse()
+                .ok()
+                .filter(|rate| (300..=12_000_000).contains(rate))?,
+        ),
     })
 }
 

@@ -117,7 +117,9 @@ pub fn Overview() -> impl IntoView {
         })
     };
     let so_far = move || match steps() {
-        (0, _) => "Take them in any order; each lasts a few minutes. All you do stays in this browser.".to_owned(),
+        (0, _) => {
+            "Take them in any order; each lasts a few minutes. All you do stays in this browser.".to_owned()
+        }
         (done, all) if done == all => format!("All {all} steps are done."),
         (done, all) => format!("{done} of {all} steps are done."),
     };

@@ -145,10 +145,12 @@ fn Place(task: Task, exercise: Asked) -> impl IntoView {
 /// Sentences, one of which is right.
 #[component]
 fn Choices(task: Task, texts: Vec<String>) -> impl IntoView {
-    let chosen = move || task.attempt.with(|attempt| match attempt.answer {
-        Some(Answer::Choice(index)) => Some(index),
-        _ => None,
-    });
+    let chosen = move || {
+        task.attempt.with(|attempt| match attempt.answer {
+            Some(Answer::Choice(index)) => Some(index),
+            _ => None,
+        })
+    };
     let graded = move || task.attempt.with(|it| it.verdict.as_ref().map(Verdict::is_right));
     let choice = move |(index, text): (usize, String)| {
         let here = move || chosen() == Some(index);
@@ -178,7 +180,8 @@ fn Choices(task: Task, texts: Vec<String>) -> impl IntoView {
 /// A number or bytes, typed.
 #[component]
 fn Typed(task: Task, #[prop(into)] start: String, label: &'static str) -> impl IntoView {
-    let off = move || task.attempt.with(|it| matches!(it.verdict, Some(Verdict::Wrong(_) | Verdict::Unread(_))));
+    let off =
+        move || task.attempt.with(|it| matches!(it.verdict, Some(Verdict::Wrong(_) | Verdict::Unread(_))));
     let value = move || task.text().unwrap_or_else(|| start.clone());
     view! {
         <label class="entry">

@@ -71,7 +71,9 @@ mod tests {
     /// The times of the Modbus standard for serial lines, 2.5.1.1.
     #[test]
     fn silence_is_three_and_a_half_characters() {
-        for (rate, micros) in [(1200, 32083.0), (9600, 4010.0), (19_200, 2005.0), (38_400, 1750.0), (115_200, 1750.0)] {
+        for (rate, micros) in
+            [(1200, 32083.0), (9600, 4010.0), (19_200, 2005.0), (38_400, 1750.0), (115_200, 1750.0)]
+        {
             assert!((silence(rate) - micros).abs() < 1.0, "{rate}");
         }
     }

@@ -6,11 +6,8 @@ use buslens_trainer::lesson::Step;
 
 #[component]
 pub fn LogLines(step: Step) -> impl IntoView {
-    let lines: Vec<_> = step
-        .log
-        .lines()
-        .map(|line| view! { <li><code>{line.to_owned()}</code></li> })
-        .collect();
+    let lines: Vec<_> =
+        step.log.lines().map(|line| view! { <li><code>{line.to_owned()}</code></li> }).collect();
     view! {
         // It may be wider than the page: the keyboard scrolls it, too.
         <ol class="log-lines" tabindex="0" aria-label="A log, line by line">{lines}</ol>

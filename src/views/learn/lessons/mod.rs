@@ -18,8 +18,8 @@ use super::{LearnState, Part};
 use contents::{Contents, Overview};
 use exercise::Exercise;
 use files::Refusal;
-pub use state::LessonsState;
 use state::Here;
+pub use state::LessonsState;
 use step::StepText;
 
 #[component]

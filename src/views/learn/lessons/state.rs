@@ -196,13 +196,14 @@ impl LessonsState {
         let before = self.own();
         let left: Vec<String> = before.iter().filter(|text| **text != *course.text).cloned().collect();
         self.take_own(&left);
-        self.toasts.offer(format!("“{}” is removed.", course.lesson.title), "Undo", move || self.take_own(&before));
+        self.toasts.offer(format!("“{}” is removed.", course.lesson.title), "Undo", move || {
+            self.take_own(&before)
+        });
     }
 
     fn own(self) -> Vec<String> {
-        self.courses.with_untracked(|all| {
-            all.iter().filter(|it| it.own).map(|it| it.text.to_string()).collect()
-        })
+        self.courses
+            .with_untracked(|all| all.iter().filter(|it| it.own).map(|it| it.text.to_string()).collect())
     }
 
     fn take_own(self, own: &[String]) {

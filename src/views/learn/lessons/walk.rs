@@ -2,10 +2,10 @@
 
 use leptos::prelude::*;
 
+use super::words::Words;
 use crate::components::byte_strip::{ByteStrip, Chosen, Lights, blocks, role_class};
 use crate::components::icon::{Glyph, Icon};
 use crate::components::telegram::Shown;
-use super::words::Words;
 use buslens::field::{Direction, Role, Span, hex};
 use buslens::tool::byte::shares;
 use buslens_trainer::lesson::{Place, Step, field};
@@ -73,7 +73,10 @@ impl Lit {
             // Only one byte in all is looked at.
             Effect::new(move |_| {
                 if chosen.get().is_some() {
-                    others.iter().filter(|it| it.chosen.get_untracked().is_some()).for_each(|it| it.chosen.set(None));
+                    others
+                        .iter()
+                        .filter(|it| it.chosen.get_untracked().is_some())
+                        .for_each(|it| it.chosen.set(None));
                 }
             });
         }
@@ -110,7 +113,9 @@ impl Lit {
         self.stops.with_value(|all| {
             let own = || all.iter().enumerate().filter(|(_, stop)| stop.telegram == telegram);
             let exact = own().find(|(_, stop)| stop.span == chosen.span);
-            let around = own().filter(|(_, stop)| stop.span.contains(chosen.at)).min_by_key(|(_, stop)| stop.span.len());
+            let around = own()
+                .filter(|(_, stop)| stop.span.contains(chosen.at))
+                .min_by_key(|(_, stop)| stop.span.len());
             exact.or(around).map(|(index, _)| index)
         })
     }

@@ -76,6 +76,8 @@ pub struct Traffic {
     /// See [`pauses`](Self::pauses): of what is settled, and of what is not.
     pub(super) pauses: Vec<(u32, u32)>,
     pub(super) fresh_pauses: Vec<(u32, u32)>,
+    /// There are telegrams whose protocol has request and response take turns.
+    pub(super) turns: bool,
     /// A person said of which protocol all telegrams are.
     pub(super) by_hand: bool,
     /// See [`leave_in_file`](Self::leave_in_file).
@@ -153,6 +155,7 @@ impl Traffic {
             room: MOST_ENTRIES,
             pauses: Vec::new(),
             fresh_pauses: Vec::new(),
+            turns: false,
             by_hand: false,
             in_file: false,
             direction: None,
@@ -514,6 +517,7 @@ impl Traffic {
                     return;
                 }
                 crate::frame::Speaker::Turns(leaning) => {
+                    self.turns = true;
                     let leaning = leaning(bytes);
                     entry.sides = [leaning <= 0, leaning >= 0];
                     return;

@@ -290,6 +290,9 @@ impl Traffic {
 
     /// Who speaks where request and response take turns.
     fn take_turns(&self, block: &mut [Entry]) {
+        if !self.turns {
+            return;
+        }
         let leaning = |entry: &Entry| match entry.protocol().speaker {
             Speaker::Turns(leaning) => Some(leaning),
             _ => None,

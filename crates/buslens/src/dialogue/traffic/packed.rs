@@ -13,8 +13,8 @@ pub(super) struct Packed<const N: usize> {
     open: Vec<[u64; N]>,
 }
 
-/// So many rows are packed together.
-const CHUNK: usize = 512;
+/// So many rows are packed together: as many as the nearest cache of a processor holds.
+const CHUNK: usize = 256;
 
 /// A chunk of rows: a [`Head`] of [`HEAD`] words for each column, and the columns behind them.
 type Chunk = Box<[u64]>;
