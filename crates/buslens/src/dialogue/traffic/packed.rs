@@ -6,12 +6,15 @@
 use std::fmt;
 
 /// Rows of `N` numbers each.
-#[derive(Default)]
 pub(super) struct Packed<const N: usize> {
     chunks: Vec<Chunk>,
-    /// The rows of the chunk that is not full yet.
-    open: Vec<[u64; N]>,
+    /// The columns of the chunk that is not full yet.
+    open: Columns<N>,
+    desk: Desk,
 }
+
+/// The columns of some rows.
+type Columns<const N: usize> = [Vec<u64>; N];
 
 /// So many rows are packed together: as many as the nearest cache of a processor holds.
 const CHUNK: usize = 256;
@@ -35,19 +38,25 @@ struct Head {
     from: usize,
 }
 
+impl<const N: usize> Default for Packed<N> {
+    fn default() -> Self {
+        Self { chunks: Vec::new(), open: [const { Vec::new() }; N], desk: Desk::default() }
+    }
+}
+
 impl<const N: usize> Packed<N> {
     pub fn len(&self) -> usize {
-        self.chunks.len() * CHUNK + self.open.len()
+        self.chunks.len() * CHUNK + self.open[0].len()
     }
 
+    #[inline]
     pub fn push(&mut self, row: [u64; N]) {
-        if self.open.capacity() == 0 && !self.chunks.is_empty() {
-            self.open.reserve_exact(CHUNK);
+        for (column, number) in self.open.iter_mut().zip(row) {
+            column.push(number);
         }
-        self.open.push(row);
-        if self.open.len() == CHUNK {
-            self.chunks.push(pack(&self.open));
-            self.open.clear();
+        if self.open[0].len() == CHUNK {
+            self.chunks.push(self.desk.pack(&self.open));
+            self.open.iter_mut().for_each(Vec::clear);
         }
     }
 
@@ -58,39 +67,41 @@ impl<const N: usize> Packed<N> {
     /// The numbers in some columns of a row.
     #[inline]
     pub fn numbers<const M: usize>(&self, index: usize, columns: [usize; M]) -> Option<[u64; M]> {
-        match self.chunks.get(index / CHUNK) {
-            Some(chunk) => Some(columns.map(|column| Head::of(chunk, column).number(chunk, index % CHUNK))),
-            None => self.open.get(index - self.chunks.len() * CHUNK).map(|row| columns.map(|at| row[at])),
+        if let Some(chunk) = self.chunks.get(index / CHUNK) {
+            return Some(columns.map(|column| Head::of(chunk, column).number(chunk, index % CHUNK)));
         }
+        let at = index - self.chunks.len() * CHUNK;
+        (at < self.open[0].len()).then(|| columns.map(|column| self.open[column][at]))
     }
 
     /// Puts another row in place of the one at `index`, if there is one. That packs its chunk anew.
     pub fn set(&mut self, index: usize, row: [u64; N]) {
         let packed = self.chunks.len() * CHUNK;
-        match self.chunks.get_mut(index / CHUNK) {
-            Some(chunk) => {
-                let mut rows = Vec::new();
-                unpack(chunk, &mut rows);
-                rows[index % CHUNK] = row;
-                *chunk = pack(&rows);
+        let put = |columns: &mut Columns<N>, at: usize| {
+            for (column, number) in columns.iter_mut().zip(row) {
+                column[at] = number;
             }
-            None => {
-                if let Some(open) = self.open.get_mut(index - packed) {
-                    *open = row;
-                }
-            }
+        };
+        if let Some(chunk) = self.chunks.get_mut(index / CHUNK) {
+            let mut columns = [const { Vec::new() }; N];
+            unpack(chunk, &mut columns);
+            put(&mut columns, index % CHUNK);
+            *chunk = self.desk.pack(&columns);
+        } else if index < packed + self.open[0].len() {
+            put(&mut self.open, index - packed);
         }
     }
 
     /// All rows in their order; a chunk is unpacked at a time.
     pub fn iter(&self) -> Rows<'_, N> {
-        Rows { packed: self, chunk: Vec::new(), next: 0 }
+        Rows { packed: self, columns: [const { Vec::new() }; N], next: 0 }
     }
 
     /// How many bytes of memory it takes.
     pub fn memory(&self) -> usize {
         let chunks: usize = self.chunks.iter().map(|chunk| size_of_val(&chunk[..])).sum();
-        chunks + self.chunks.capacity() * size_of::<Chunk>() + self.open.capacity() * size_of::<[u64; N]>()
+        let open: usize = self.open.iter().map(|column| column.capacity() * size_of::<u64>()).sum();
+        chunks + self.chunks.capacity() * size_of::<Chunk>() + open
     }
 }
 
@@ -104,8 +115,8 @@ impl<const N: usize> fmt::Debug for Packed<N> {
 #[derive(Clone)]
 pub(super) struct Rows<'a, const N: usize> {
     packed: &'a Packed<N>,
-    /// The rows of the chunk in hand.
-    chunk: Vec<[u64; N]>,
+    /// The columns of the chunk in hand.
+    columns: Columns<N>,
     next: usize,
 }
 
@@ -117,13 +128,15 @@ impl<const N: usize> Iterator for Rows<'_, N> {
         let at = self.next % CHUNK;
         if at == 0 {
             match self.packed.chunks.get(self.next / CHUNK) {
-                Some(chunk) => unpack(chunk, &mut self.chunk),
-                None => self.chunk.clone_from(&self.packed.open),
+                Some(chunk) => unpack(chunk, &mut self.columns),
+                None => self.columns.clone_from(&self.packed.open),
             }
         }
-        let row = self.chunk.get(at).copied()?;
+        if at >= self.columns[0].len() {
+            return None;
+        }
         self.next += 1;
-        Some(row)
+        Some(std::array::from_fn(|column| self.columns[column][at]))
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
@@ -168,30 +181,39 @@ fn width(most: u64) -> u32 {
     u64::BITS - most.leading_zeros()
 }
 
-/// Packs rows. There is at least one.
-fn pack<const N: usize>(rows: &[[u64; N]]) -> Chunk {
-    let mut chunk = vec![0; N * HEAD];
-    let mut list = List::default();
-    for column in 0..N {
-        let numbers = || rows.iter().map(|row| row[column]);
-        let (least, most) = numbers().fold((u64::MAX, 0), |(least, most), it| (it.min(least), it.max(most)));
-        let mut head =
-            Head { base: least, width: width(most.wrapping_sub(least)), listed: 0, from: chunk.len() };
-        if head.width > List::LEAST && list.take(numbers()) {
-            head.listed = list.numbers.len();
-            head.width = width(list.numbers.len() as u64 - 1);
-            chunk.extend_from_slice(&list.numbers);
-            write(&mut chunk, list.places.iter().map(|place| u64::from(*place)), head.width);
-        } else {
-            write(&mut chunk, numbers().map(|number| number.wrapping_sub(least)), head.width);
+/// Where chunks are packed, again and again.
+#[derive(Default)]
+struct Desk {
+    words: Vec<u64>,
+    list: List,
+}
+
+impl Desk {
+    /// Packs columns. They have at least one row.
+    fn pack<const N: usize>(&mut self, columns: &Columns<N>) -> Chunk {
+        self.words.clear();
+        self.words.resize(N * HEAD, 0);
+        for (place, column) in columns.iter().enumerate() {
+            let (least, most) =
+                column.iter().fold((u64::MAX, 0), |(least, most), it| (least.min(*it), most.max(*it)));
+            let width = width(most.wrapping_sub(least));
+            let mut head = Head { base: least, width, listed: 0, from: self.words.len() };
+            match self.list.width(column, width) {
+                Some(width) => {
+                    (head.width, head.listed) = (width, self.list.numbers.len());
+                    self.words.extend_from_slice(&self.list.numbers);
+                    write(&mut self.words, self.list.places.iter().map(|place| u64::from(*place)), width);
+                }
+                None => write(&mut self.words, column.iter().map(|number| number.wrapping_sub(least)), width),
+            }
+            self.words[place * HEAD..][..HEAD].copy_from_slice(&head.words());
         }
-        chunk[column * HEAD..][..HEAD].copy_from_slice(&head.words());
+        self.words.as_slice().into()
     }
-    chunk.into_boxed_slice()
 }
 
 /// Writes numbers of so many bits.
-fn write(chunk: &mut Vec<u64>, numbers: impl Iterator<Item = u64>, width: u32) {
+fn write(words: &mut Vec<u64>, numbers: impl Iterator<Item = u64>, width: u32) {
     if width == 0 {
         return;
     }
@@ -200,27 +222,25 @@ fn write(chunk: &mut Vec<u64>, numbers: impl Iterator<Item = u64>, width: u32) {
         word |= number << used;
         used += width;
         if used >= u64::BITS {
-            chunk.push(word);
+            words.push(word);
             used -= u64::BITS;
             // What did not fit any more; a shift by all bits is none.
             word = if used == 0 { 0 } else { number >> (width - used) };
         }
     }
     if used > 0 {
-        chunk.push(word);
+        words.push(word);
     }
 }
 
 /// Reads all rows of a chunk.
-fn unpack<const N: usize>(chunk: &[u64], rows: &mut Vec<[u64; N]>) {
-    rows.resize(CHUNK, [0; N]);
-    for column in 0..N {
-        let head = Head::of(chunk, column);
-        if head.width == 0 {
-            let number = head.number(chunk, 0);
-            rows.iter_mut().for_each(|row| row[column] = number);
-        } else {
-            rows.iter_mut().enumerate().for_each(|(at, row)| row[column] = head.number(chunk, at));
+fn unpack<const N: usize>(chunk: &[u64], columns: &mut Columns<N>) {
+    for (place, column) in columns.iter_mut().enumerate() {
+        let head = Head::of(chunk, place);
+        column.clear();
+        match head.width {
+            0 => column.resize(CHUNK, head.number(chunk, 0)),
+            _ => column.extend((0..CHUNK).map(|row| head.number(chunk, row))),
         }
     }
 }
@@ -232,24 +252,34 @@ struct List {
     /// The place in `numbers` of each row's.
     places: Vec<u8>,
     /// By a hash of them, the place behind that of a number; 0 where there is none.
-    slots: Vec<u16>,
+    slots: Vec<u8>,
 }
 
 impl List {
     /// Numbers of fewer bits need no list.
     const LEAST: u32 = 14;
-    /// A longer list takes more room than it saves.
-    const MOST: usize = 256;
-    const SLOTS: usize = 1024;
+    const MOST: usize = 64;
+    const SLOTS: usize = 256;
+
+    /// Lists the numbers of a column, if that takes less room than `width` bits for each; returns how many bits
+    /// their places have.
+    fn width(&mut self, numbers: &[u64], width: u32) -> Option<u32> {
+        if width < Self::LEAST || !self.take(numbers) {
+            return None;
+        }
+        let listed = self::width(self.numbers.len() as u64 - 1);
+        let saved = (width - listed) as usize * numbers.len();
+        (saved > self.numbers.len() * u64::BITS as usize).then_some(listed)
+    }
 
     /// Lists the numbers; `false` if too many differ.
-    fn take(&mut self, numbers: impl Iterator<Item = u64>) -> bool {
+    fn take(&mut self, numbers: &[u64]) -> bool {
         self.numbers.clear();
         self.places.clear();
         self.slots.clear();
         self.slots.resize(Self::SLOTS, 0);
-        for number in numbers {
-            let mut slot = (number.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 54) as usize;
+        for number in numbers.iter().copied() {
+            let mut slot = (number.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 56) as usize;
             let place = loop {
                 match self.slots[slot].checked_sub(1) {
                     Some(place) if self.numbers[usize::from(place)] == number => break place,
@@ -257,7 +287,7 @@ impl List {
                     None if self.numbers.len() == Self::MOST => return false,
                     None => {
                         self.numbers.push(number);
-                        self.slots[slot] = self.numbers.len() as u16;
+                        self.slots[slot] = self.numbers.len() as u8;
                         break self.slots[slot] - 1;
                     }
                 }
