@@ -87,6 +87,9 @@ const NAMED: [&str; 16] = [
     "image",
 ];
 
+/// More rows are not written down.
+const ROWS: usize = 12;
+
 fn add(node: &Value, by_id: &HashMap<&str, &Value>, depth: usize, lines: &mut Vec<String>) {
     let children = || {
         let ids = node["childIds"].as_array().into_iter().flatten();
@@ -114,7 +117,12 @@ fn add(node: &Value, by_id: &HashMap<&str, &Value>, depth: usize, lines: &mut Ve
     // A cell whose only content is its name; one with something to press in it is more than that.
     let pressed = |child: &Value| matches!(text(child, "role"), "button" | "link");
     if !NAMED.contains(&role) || text(node, "name").is_empty() || children().any(pressed) {
-        children().for_each(|child| add(child, by_id, depth + 1, lines));
+        // Rows of a list are like each other.
+        let most = if role == "rowgroup" { ROWS } else { usize::MAX };
+        children().take(most).for_each(|child| add(child, by_id, depth + 1, lines));
+        if children().count() > most {
+            lines.push(format!("{indent}  and further rows"));
+        }
     }
 }
 

@@ -3,15 +3,12 @@
 
 use std::path::Path;
 
-use page_tests::{DESKTOP, Page, Result};
+use page_tests::{DESKTOP, Page, Result, chromium_only};
 use thirtyfour::prelude::*;
 
-const PAIR: &str = "01 03 00 C8 00 03 84 35\n01 03 06 00 08 42 A4 F1 DE B0 F8";
+const WHY: &str = "only its driver gives the tree that screen readers have";
 
-const LOG: &str = "12:00:00.000 TX 01 03 00 C8 00 03 84 35\n12:00:00.020 RX 01 03 06 00 80 42 A4 F1 DE B0 F8\n\
-                   12:00:01.000 TX 01 03 00 C8 00 03 84 35\n12:00:01.020 RX 01 03 06 00 80 42 A4 F1 DE B0 F9\n\
-                   12:00:02.000 TX 02 03 00 C8 00 03 84 06\n12:00:03.000 TX 02 03 00 C8 00 03 84 06\n\
-                   12:00:04.000 TX 01 03 FF FF 00 01 84 2E\n12:00:04.020 RX 01 83 02 C0 F1\n";
+const PAIR: &str = "01 03 00 C8 00 03 84 35\n01 03 06 00 08 42 A4 F1 DE B0 F8";
 
 /// Fails where a file says something else.
 fn compare(name: &str, said: &str) {
@@ -31,14 +28,20 @@ fn compare(name: &str, said: &str) {
     assert_eq!(kept, said, "{name}");
 }
 
+/// Presses a key wherever the focus is; an element that opens files would take it for one.
+async fn press(page: &Page, key: &Key) -> Result {
+    page.driver.action_chain().send_keys(key.clone()).perform().await
+}
+
 /// What is said at each of `keys`, and then by the page itself.
 async fn pressed(page: &Page, said: &mut String, keys: &[(&str, Key)]) -> Result {
+    let before = page.told().await?;
     for (name, key) in keys {
-        page.press(key.clone()).await?;
+        press(page, key).await?;
         said.push_str(&format!("{name}: {}\n", page.focus_aloud().await?));
     }
-    let told = page.told().await?;
-    said.push_str(&format!("then: {told}\n\n"));
+    let told = Some(page.told().await?).filter(|told| *told != before);
+    said.push_str(&format!("then: {}\n\n", told.as_deref().unwrap_or("nothing more")));
     Ok(())
 }
 
@@ -50,7 +53,7 @@ async fn stops(page: &Page, css: &str) -> Result<String> {
     let mut said = String::from("Tab from stop to stop:\n");
     for _ in 0..MOST {
         said.push_str(&format!("  {}\n", page.focus_aloud().await?));
-        page.press(Key::Tab).await?;
+        press(page, &Key::Tab).await?;
         if page.value("return !document.activeElement.closest('main')").await? == true {
             break;
         }
@@ -60,6 +63,9 @@ async fn stops(page: &Page, css: &str) -> Result<String> {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn telegrams_are_read_aloud() -> Result {
+    if chromium_only(WHY) {
+        return Ok(());
+    }
     let page = Page::open(DESKTOP, false).await?;
     page.paste(PAIR).await?;
     page.choose(1).await?;
@@ -83,8 +89,11 @@ async fn telegrams_are_read_aloud() -> Result {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_log_is_read_aloud() -> Result {
+    if chromium_only(WHY) {
+        return Ok(());
+    }
     let page = Page::open(DESKTOP, false).await?;
-    page.paste(LOG).await?;
+    page.click_text(".first-examples button", "A customer's log").await?;
     page.wait_for(".list .row:not(.head)").await?;
     page.wait_for(".detail h3").await?;
     let mut said = format!("opened: {}\n\n", page.told().await?);
@@ -102,6 +111,9 @@ async fn a_log_is_read_aloud() -> Result {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_form_is_read_aloud() -> Result {
+    if chromium_only(WHY) {
+        return Ok(());
+    }
     let page = Page::open(DESKTOP, false).await?;
     page.paste("01 10 00 C8 00 02 04 42 A4 F1 DE 8F 5E").await?;
     page.click_text(".lead a", "Edit in Build").await?;

@@ -163,3 +163,20 @@ async fn a_frame_ends_at_zero_with_its_crc() -> Result {
     assert_eq!(page.accessibility().await?, [""; 0]);
     page.close().await
 }
+
+/// Who clicks into the field has bytes of his own: they do not end up behind the example.
+#[tokio::test(flavor = "multi_thread")]
+async fn the_example_makes_room() -> Result {
+    let page = Page::open_at("#/check", DESKTOP, false).await?;
+    page.until_value("main input", "01 03 00 C8 00 03 84 35").await?;
+    page.click("main input").await?;
+    page.press("01 06").await?;
+    page.settle().await?;
+    assert_eq!(page.one("main input").await?.value().await?.as_deref(), Some("01 06"));
+    // What one typed stays, wherever one clicks.
+    page.click(".check .outcome").await?;
+    page.click("main input").await?;
+    page.press(Key::End + " 00").await?;
+    page.until_value("main input", "01 06 00").await?;
+    page.close().await
+}

@@ -285,3 +285,23 @@ async fn units_have_devices_of_their_own() -> Result {
     page.until("main h2", "Universal channel 1").await?;
     page.close().await
 }
+
+/// The log that Read shows proposes its devices; what is taken of that can be taken back.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_log_proposes_the_devices_of_its_units() -> Result {
+    let page = Page::open(DESKTOP, false).await?;
+    page.paste(include_str!("../../src/views/read/example.log")).await?;
+    page.until(".proposed", "Memograph").await?;
+    page.view("devices").await?;
+    page.until(".units .why", "Unit 1 reads well as Endress+Hauser Memograph M RSG45").await?;
+    assert_eq!(page.accessibility().await?, [""; 0]);
+    page.press_button("Unit 1 is Endress+Hauser Memograph M RSG45").await?;
+    page.until(CHANGES, "Unit 1 is Endress+Hauser Memograph M RSG45.").await?;
+    page.view("read").await?;
+    page.until(".rows .row", "Universal channel 1").await?;
+    page.view("devices").await?;
+    page.press_button("Undo").await?;
+    page.until(CHANGES, "everything is at factory settings").await?;
+    page.until(".units .why", "Unit 1 reads well as").await?;
+    page.close().await
+}

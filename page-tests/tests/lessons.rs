@@ -45,7 +45,7 @@ async fn give(page: &Page, exercise: &Exercise, answer: &Answer) -> Result {
             )
         }
         (_, Answer::Text(text)) => {
-            ("set(document.querySelector('.task .entry input'), arguments[0]);", json!(text))
+            ("set(document.querySelector('.task .typed input'), arguments[0]);", json!(text))
         }
         (_, Answer::Choice(index)) => {
             ("document.querySelectorAll('.choices input')[arguments[0]].click();", json!(index))
@@ -184,7 +184,7 @@ async fn a_trainer_opens_a_lesson_of_his_own() -> Result {
     page.go("#/learn?place=lessons.our-own.1").await?;
     page.until(".spoken", "3 registers.").await?;
     page.driver
-        .execute(format!("{SET} set(document.querySelector('.task .entry input'), '3')"), vec![])
+        .execute(format!("{SET} set(document.querySelector('.task .typed input'), '3')"), vec![])
         .await?;
     page.press_button("Check my answer").await?;
     page.until(".outcome.right", "Right").await?;

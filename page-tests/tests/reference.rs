@@ -40,7 +40,7 @@ async fn a_misprint_says_what_is_wrong_in_the_print() -> Result {
     page.until(".gallery .tools .end", "15 telegrams").await?;
     assert_eq!(page.count(".samples .slip").await?, 15);
     let slips = page.texts(".samples .slip").await?;
-    assert!(slips[0].contains("In print the status 00 80 is printed as 00 08"), "{}", slips[0]);
+    assert!(slips[0].contains("The status 00 80 is printed as 00 08. Corrected:"), "{}", slips[0]);
     assert_eq!(page.fragment().await?, "#/learn?place=telegrams..misprint");
     // As printed, Read says what the manual has wrong; corrected, nothing is.
     page.click(".samples li:nth-child(1) > a").await?;
@@ -125,7 +125,7 @@ async fn the_table_goes_by_keyboard() -> Result {
     page.press(Key::Down + "").await?;
     page.until(".entry h3", "Mapped registers").await?;
     page.press(Key::End + "").await?;
-    page.until(".entry h3", "Write mapping entry 99").await?;
+    page.until(".entry h3", "mapping entry 99").await?;
     let in_sight = "const row = document.querySelector('.found [aria-selected=true]').getBoundingClientRect(); \
                     const list = document.querySelector('.found').getBoundingClientRect(); \
                     return row.top >= list.top && row.bottom <= list.bottom";
@@ -138,7 +138,7 @@ async fn the_table_goes_by_keyboard() -> Result {
     page.picture("reference-table-dark").await?;
     // A reload, and back, lead to the same.
     page.driver.refresh().await?;
-    page.until(".entry h3", "Write mapping entry 99").await?;
+    page.until(".entry h3", "mapping entry 99").await?;
     page.close().await
 }
 
@@ -170,10 +170,7 @@ async fn a_telegram_is_laid_out() -> Result {
     let page = Page::open_at("#/learn?place=reference.modbus.telegrams.16", DESKTOP, false).await?;
     page.until(".topic h3", "Write multiple registers").await?;
     let labels = page.texts(".topic .telegram:nth-of-type(1) .diagram .label").await?;
-    assert_eq!(
-        labels[..6],
-        ["Unit", "Function", "Start", "Quantity", "Byte count", "Values"].map(str::to_owned)
-    );
+    assert_eq!(labels[..6], ["Unit", "Function", "Start", "Quantity", "Bytes", "Values"].map(str::to_owned));
     page.until(".topic .example", "For example: Write to unit 1: Universal channel 6 = 123.456, good.")
         .await?;
     assert_eq!(page.bytes_in(".topic .example").await?, "01 10 00 D7 00 03 06 00 80 42 F6 E9 79 28 15");

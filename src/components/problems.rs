@@ -34,5 +34,5 @@ pub fn Problems(shown: Shown, lights: Lights) -> impl IntoView {
         .into_iter()
         .map(|it| problem(it.severity, it.message.sentence() + ".", it.span))
         .collect();
-    (!all.is_empty()).then(|| view! { <ul class="problems">{all}</ul> })
+    (!all.is_empty()).then(|| view! { <ul class="problems" aria-label="Problems">{all}</ul> })
 }

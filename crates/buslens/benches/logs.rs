@@ -5,6 +5,7 @@
 //! told in advance which telegrams are requests and which responses, and keep nothing. rmodbus is
 //! asked for lengths alone, and for lengths with checks, which is the least that splitting needs.
 
+use std::fmt::Write as _;
 use std::hint::black_box;
 
 use buslens::field::{Direction, hex};
@@ -103,24 +104,77 @@ fn streams(c: &mut Criterion) {
     group.finish();
 }
 
+/// How programs write a telegram into their log.
+type Layout = (&'static str, fn(&mut String, usize, &Sent));
+
+static LAYOUTS: &[Layout] = &[
+    ("a time, a word, bytes", |text, n, sent| {
+        line(text, format_args!("{} {}: {}", time(n), side(sent), hex(&sent.rtu())));
+    }),
+    ("brackets and dots", |text, n, sent| {
+        let bytes = joined(&sent.rtu(), ".", |byte| format!("{byte:02X}"));
+        line(text, format_args!("[{}][V][modbus:199]: Modbus {}: {bytes}", time(n), side(sent)));
+    }),
+    ("counters", |text, n, sent| {
+        line(text, format_args!("{n:06}-{}:{}", side(sent), hex(&sent.rtu())));
+    }),
+    ("a byte in brackets each", |text, _, sent| {
+        let bytes = sent.rtu();
+        let [open, close] = if sent.direction == Direction::Request { ["[", "]"] } else { ["<", ">"] };
+        line(
+            text,
+            format_args!(
+                "{open}{}{close}",
+                joined(&bytes, &format!("{close}{open}"), |b| format!("{b:02X}"))
+            ),
+        );
+    }),
+    ("numbers with a prefix", |text, n, sent| {
+        let bytes = joined(&sent.rtu(), " ", |byte| format!("{byte:#x}"));
+        line(text, format_args!("2026-03-02 {} DEBUG transaction {}: {bytes}", time(n), side(sent)));
+    }),
+    ("decimal numbers", |text, _, sent| {
+        line(text, format_args!("{}: {}", side(sent), joined(&sent.rtu(), ", ", |byte| byte.to_string())));
+    }),
+    ("digits without blanks", |text, n, sent| {
+        line(
+            text,
+            format_args!("{} {} {}", time(n), side(sent), joined(&sent.rtu(), "", |b| format!("{b:02x}"))),
+        );
+    }),
+];
+
+fn line(text: &mut String, line: std::fmt::Arguments<'_>) {
+    writeln!(text, "{line}").expect("a string takes all");
+}
+
+fn side(sent: &Sent) -> &'static str {
+    if sent.direction == Direction::Request { "TX" } else { "RX" }
+}
+
+/// Of a day, a telegram each 400 ms.
+fn time(n: usize) -> String {
+    let (second, milli) = (n * 2 / 5, n * 400 % 1000);
+    format!("{:02}:{:02}:{:02}.{milli:03}", second / 3600, second / 60 % 60, second % 60)
+}
+
+fn joined(bytes: &[u8], between: &str, write: fn(u8) -> String) -> String {
+    bytes.iter().map(|byte| write(*byte)).collect::<Vec<_>>().join(between)
+}
+
 fn texts(c: &mut Criterion) {
-    let mut text = String::new();
-    for (n, sent) in telegrams().iter().enumerate() {
-        let word = if sent.direction == Direction::Request { "TX" } else { "RX" };
-        let (second, milli) = (n / 100, n % 100 * 10);
-        text.push_str(&format!(
-            "{:02}:{:02}:{:02}.{milli:03} {word}: {}\n",
-            second / 3600,
-            second / 60 % 60,
-            second % 60,
-            hex(&sent.rtu())
-        ));
-    }
     let read = |text: &[u8]| Log::read(text, &Reading::default(), Options::default()).expect("a log");
-    assert_eq!(read(text.as_bytes()).entries().len(), TELEGRAMS);
+    let sent = telegrams();
     let mut group = c.benchmark_group("a log of 200,000 lines");
-    group.sample_size(20).throughput(Throughput::Bytes(text.len() as u64));
-    group.bench_function("read", |b| b.iter(|| read(black_box(text.as_bytes()))));
+    group.sample_size(10);
+    for (name, write) in LAYOUTS {
+        let mut text = String::new();
+        sent.iter().enumerate().for_each(|(n, sent)| write(&mut text, n, sent));
+        let telegrams = read(text.as_bytes()).entries().iter().filter(|entry| entry.counts()).count();
+        assert!(telegrams.abs_diff(TELEGRAMS) * 1000 < TELEGRAMS, "{name}: {telegrams} of {TELEGRAMS}");
+        group.throughput(Throughput::Bytes(text.len() as u64));
+        group.bench_function(*name, |b| b.iter(|| read(black_box(text.as_bytes()))));
+    }
     group.finish();
 }
 

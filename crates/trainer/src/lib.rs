@@ -7,16 +7,21 @@
 //! | [`mod@grade`] | whether an answer is right, and which field is off in which way |
 //! | [`lesson`] | lessons as text: reading them, and holding them to what the library says |
 //! | [`notation`] | numbers as people write them |
+//! | [`practice`] | tasks without end, made of a seed; [`random`] numbers for them |
+//! | [`result`] | what came of a round, in eight letters |
+//! | [`course`] | tasks for Moodle |
 //!
 //! It is made of what [`buslens::tool`] offers, in the words of [`buslens::field`], and so it can never be wrong
 //! about a byte that the page shows.
 #![forbid(unsafe_code)]
 
+pub mod course;
 pub mod grade;
 pub mod lesson;
 pub mod notation;
 pub mod practice;
 pub mod random;
+pub mod result;
 pub mod task;
 
 pub use grade::{Answer, Remark, Verdict, grade};

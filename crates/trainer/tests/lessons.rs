@@ -93,7 +93,7 @@ fn wrong(step: &Step, exercise: &Exercise) -> Vec<Answer> {
             let Some(Answer::Byte(right)) = exercise.answer(step) else { panic!("a byte") };
             let report = step.report();
             let bytes = &report.telegrams.last().unwrap().line.bytes;
-            (0..bytes.len()).filter(|at| at.abs_diff(right) > 3).map(Answer::Byte).collect()
+            (0..bytes.len()).filter(|at| !(right..right + 4).contains(at)).map(Answer::Byte).collect()
         }
         Ask::Blank { fields, .. } => {
             let Some(Answer::Blanks(right)) = exercise.answer(step) else { panic!("blanks") };

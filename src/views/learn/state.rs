@@ -3,6 +3,7 @@
 use leptos::prelude::*;
 
 use super::lessons::LessonsState;
+use super::practice::PracticeState;
 use crate::address::Address;
 use buslens::tool::link::Link;
 
@@ -45,6 +46,7 @@ pub struct LearnState {
     part: RwSignal<Part>,
     /// The place in each part, in the order of [`Part::ALL`]: words with points between them.
     places: [RwSignal<String>; 4],
+    pub practice: PracticeState,
     pub lessons: LessonsState,
 }
 
@@ -55,6 +57,7 @@ impl LearnState {
             address: expect_context(),
             part: RwSignal::new(Part::Lessons),
             places: std::array::from_fn(|_| RwSignal::new(String::new())),
+            practice: PracticeState::new(),
             lessons: LessonsState::new(),
         }
     }

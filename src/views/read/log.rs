@@ -354,7 +354,7 @@ impl LogState {
             }
             Answer::Ready(overview) => {
                 self.toasts.announce(format!(
-                    "{} {}",
+                    "{}: {}",
                     many(overview.telegrams, "telegram"),
                     overview.headline
                 ));

@@ -61,9 +61,9 @@ pub fn Read() -> impl IntoView {
             <Show when=move || has_editor.get()>
                 <Input />
             </Show>
-            <Show when=move || read.mode() == Mode::Telegrams && later.has_failed(Part::Log)>
+            <Show when=move || read.mode() != Mode::Log && later.has_failed(Part::Log)>
                 <CouldNotLoad part=Part::Log>
-                    "A part of Buslens could not be loaded: check the connection. Telegrams can be read one by one, without possible causes and proposals."
+                    "A part of Buslens could not be loaded: check the connection. Telegrams can be read one by one, without examples, possible causes and proposals."
                 </CouldNotLoad>
             </Show>
             {below}

@@ -23,6 +23,7 @@
 //! | in brackets of its own; marked as bytes; a row of a dump; words of the trade | 3; 2; 3; 3 |
 //! | a number beside it says its length | 6 |
 //! | called left over or thrown away | −6 |
+//! | it fills an array of a program, whose brackets, marks and size say nothing | −2 |
 //! | telegrams stand in the same place of other lines; what stands there is none | up to 8; −4 |
 //! | the same unit and function were seen; only telegrams of another kind were | 4; −8 |
 //! | it answers a request, or is answered | 12 |
@@ -76,6 +77,9 @@ pub fn threshold(pieces: usize) -> i32 {
 /// What the text says, in bits.
 pub fn place(facts: &Facts) -> i32 {
     let of = |fact: bool, bits: i32| if fact { bits } else { 0 };
+    if facts.array {
+        return of(facts.said, 4) + of(facts.of_telegrams, 3) - 2;
+    }
     of(facts.bare, 4)
         + of(facts.said, 4)
         + of(facts.labelled && !facts.said, 2)
@@ -158,6 +162,12 @@ fn damaged(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
     // What damaged it may be in its numbers.
     let bits = unit(*bytes.first()?) + function(*pdu.first()?) + numbers(pdu, splitter)?.max(0) + WRONG;
     Some(whole(&modbus_rtu::PROTOCOL, verdict(&modbus_rtu::PROTOCOL, bytes), bits))
+}
+
+/// A request to write whose check is wrong: its numbers of registers and of bytes tell it among other bytes.
+pub fn counted_write(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
+    matches!(modbus_rtu::RTU.pdu_bytes(bytes), [15 | 16 | 101, ..]).then_some(())?;
+    damaged(bytes, splitter).filter(|reading| reading.bits >= CONVERSATION)
 }
 
 /// Bytes with a right check whose length is not that of their function.

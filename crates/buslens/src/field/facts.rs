@@ -15,6 +15,8 @@ pub struct Facts {
     pub labelled: bool,
     /// It stands in brackets or quotes of its own.
     pub wrapped: bool,
+    /// It fills an array in the source of a program.
+    pub array: bool,
     /// Commas stand between its numbers.
     pub listed: bool,
     /// Its numbers have a prefix, an h, or are escapes: certainly bytes.

@@ -56,6 +56,10 @@ pub fn separator(gap: &[u8]) -> Option<u8> {
             b'.' if gap.get(at + 1) == Some(&b'.') => return None,
             b' ' | b'\t' => blank = true,
             b'*' | b'_' | b'~' => emphasis = if emphasis == 0 { *c } else { emphasis },
+            b'%' if gap[at..].starts_with(URL_BLANK) => {
+                at += URL_BLANK.len() - 1;
+                blank = true;
+            }
             b',' | b';' | b':' | b'.' | b'-' | b'|' | b'/' | b'[' | b']' | b'<' | b'>' | b'"' | b'\''
             | b'$' | b'%' | b'#' => mark = if mark == 0 { *c } else { mark },
             &ESCAPE => at += escape_sequence(&gap[at..]).checked_sub(1)?,
@@ -72,6 +76,22 @@ pub fn separator(gap: &[u8]) -> Option<u8> {
         (0, false, emphasis) => emphasis,
         (mark, ..) => mark,
     })
+}
+
+/// A blank in an address of the web.
+const URL_BLANK: &[u8] = b"%20";
+
+/// How long the blank of an address is that begins `text`: one that bytes follow, in two digits or with a prefix; else
+/// 0.
+pub fn url_blank(text: &[u8]) -> usize {
+    let bytes = match text.strip_prefix(URL_BLANK) {
+        Some([b'0', b'x' | b'X', ..]) => true,
+        Some([a, b, rest @ ..]) => {
+            a.is_ascii_hexdigit() && b.is_ascii_hexdigit() && !rest.first().is_some_and(|c| is_word(*c))
+        }
+        _ => false,
+    };
+    if bytes { URL_BLANK.len() } else { 0 }
 }
 
 pub const ESCAPE: u8 = 0x1B;

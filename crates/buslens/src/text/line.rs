@@ -10,7 +10,7 @@ mod run;
 
 use super::characters::{
     ESCAPE, address, begins_word, blank_character, decimal, digits, escape_sequence, hex_value, is_digit,
-    is_port, service, wide, word, word_of,
+    is_port, service, url_blank, wide, word, word_of,
 };
 use super::time;
 use super::words::{self, About, Sender, Weight};
@@ -106,9 +106,15 @@ impl Scan {
                         to
                     }
                     None if at == first && matches!(c, b'<' | b'>') => self.points(line, at),
-                    None if c == b'-' && Self::is_negative(line, at) => self.negative(line, at),
+                    None if c == b'-' && !self.hex_only() && Self::is_negative(line, at) => {
+                        self.negative(line, at)
+                    }
                     None => at + 1,
                 },
+                // Bytes of their own may have the sign, too: `%01%20`.
+                b'%' if self.open().is_some_and(|run| !run.is_parted_by(b'%')) => {
+                    at + url_blank(&line[at..]).max(1)
+                }
                 b'&' if matches!(line.get(at + 1), Some(b'H' | b'h')) => self.of_basic(line, at),
                 ESCAPE => at + escape_sequence(&line[at..]).max(1),
                 b'S' | b'E' if at == first && self.runs.is_empty() => {
@@ -215,8 +221,9 @@ impl Scan {
                 run.span.to + 1 == at && (run.tokens > 1 || matches!(line[run.span.to], b'.' | b':' | b'-'))
             };
             let end = at + line[at..].iter().take_while(|c| is_digit(**c)).count();
-            let mark = line.get(end).filter(|c| matches!(c, b':' | b'-' | b'/' | b'.')).copied();
-            if let Some(mark) = mark.filter(|_| !self.open().is_some_and(goes_on)) {
+            let mark = line.get(end).copied().unwrap_or_default();
+            let timed = matches!(mark, b':' | b'-' | b'/' | b'.') || end - at == time::MILLISECONDS;
+            if timed && !self.open().is_some_and(goes_on) {
                 if mark == b'.'
                     && let Some(to) = address(line, at)
                 {

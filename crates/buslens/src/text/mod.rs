@@ -15,7 +15,8 @@
 //! Whether a piece holds a telegram is not decided here, but by [`crate::dialogue::evidence`]: a counter, a
 //! date or a word of hex letters may well come out as a piece.
 //!
-//! Everything takes linear time, and usual lines do not allocate.
+//! Everything takes linear time, and usual lines do not allocate: most are like one before, and are compared with it
+//! (`line::alike`).
 
 mod characters;
 mod columns;
@@ -116,6 +117,8 @@ pub struct Reader {
     header: Option<Header>,
     /// The time of a line without bytes, for the dump below it.
     remembered: Option<i64>,
+    /// The last line without bytes begins an array of a program.
+    array: bool,
     list: List,
     columns: Columns,
     /// The breaks of the run in hand, see [`Piece::breaks`].
@@ -135,6 +138,17 @@ struct Header {
     /// The last number in it.
     number: usize,
     leftovers: bool,
+}
+
+/// Whether a line, or what of it stands before bytes, begins an array in the source of a program: `uint8_t key[16] = {`,
+/// `const char logo[] PROGMEM = {`.
+fn begins_array(text: &[u8]) -> bool {
+    let text = text.trim_ascii_end();
+    let open = text.strip_suffix(b"{").or_else(|| text.strip_suffix(b"[")).map(<[u8]>::trim_ascii_end);
+    let declared = open.and_then(|text| text.strip_suffix(b"=")).unwrap_or_default();
+    let size = declared.iter().rposition(|c| *c == b']');
+    let word = |c: &u8| c.is_ascii_alphanumeric() || matches!(c, b' ' | b'\t' | b'_');
+    size.is_some_and(|end| declared[end + 1..].iter().all(word))
 }
 
 /// A list of numbers over several lines.
@@ -449,6 +463,9 @@ impl Reader {
         if self.long {
             return;
         }
+        let code = line.trim_ascii_start();
+        let remark = code.starts_with(b"//") || code.starts_with(b"/*") || code.trim_ascii_end() == b"{";
+        self.array = begins_array(line) || (self.array && remark);
         let sender = self.scan.sender.filter(|_| !self.scan.both).map(|(sender, _)| sender);
         let heading = line.trim_ascii_end().ends_with(b":");
         let number = self.scan.last_number(line);
@@ -504,7 +521,8 @@ impl Reader {
                 self.scan.runs.first().map_or_else(Facts::default, |run| facts(line, run, &self.scan));
             let header = self.header.take();
             self.list.sender = self.scan.sender.map(|(sender, _)| sender).or(header.and_then(|it| it.sender));
-            self.list.facts = Facts { wrapped: true, said: self.list.sender.is_some(), ..facts };
+            let array = facts.array || self.array;
+            self.list.facts = Facts { wrapped: true, said: self.list.sender.is_some(), array, ..facts };
             (self.list.line, self.list.offset, self.list.time) = (self.line, self.offset, time);
             self.list.both = true;
         } else {
@@ -672,6 +690,7 @@ fn facts(line: &[u8], run: &Run, scan: &Scan) -> Facts {
     Facts {
         labelled: is_labelled(line, run),
         wrapped,
+        array: matches!(lead, b'{' | b'[') && begins_array(&line[..run.span.from]),
         marked: run.marked,
         listed: run.is_list(),
         of_telegrams: scan.of_telegrams,

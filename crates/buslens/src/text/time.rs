@@ -25,7 +25,10 @@ pub fn at(line: &[u8], at: usize) -> Option<Found> {
             None => Found { micros: days * DAY, to },
         });
     }
-    of_day(line, at).or_else(|| seconds(line, at)).map(|time| Found { to: zone(line, time.to), ..time })
+    of_day(line, at)
+        .or_else(|| seconds(line, at))
+        .or_else(|| milliseconds(line, at))
+        .map(|time| Found { to: zone(line, time.to), ..time })
 }
 
 /// Days since 1970 of `2026-03-02`, `2026/03/02`, `02.03.2026`, `02/03/2026`.
@@ -114,6 +117,19 @@ fn seconds(line: &[u8], at: usize) -> Option<Found> {
     (plain && whole < 100_000_000_000).then(found)
 }
 
+/// How many digits milliseconds since 1970 have in our days.
+pub const MILLISECONDS: usize = 13;
+
+/// `1772443805123` before something else, as programs count milliseconds since 1970: of the years 2001 to 2065.
+fn milliseconds(line: &[u8], at: usize) -> Option<Found> {
+    const YEARS: std::ops::Range<u64> = 1_000_000_000_000..3_000_000_000_000;
+    let (value, to) =
+        digits(line, at).filter(|(value, to)| to - at == MILLISECONDS && YEARS.contains(value))?;
+    let mut behind = line[to..].iter();
+    let parted = behind.next().is_some_and(|c| !c.is_ascii_alphanumeric());
+    (parted && behind.any(u8::is_ascii_alphanumeric)).then_some(Found { micros: value as i64 * 1000, to })
+}
+
 /// A number with a fraction that a blank or another separator ends, of units of so many microseconds.
 pub fn number(line: &[u8], at: usize, unit: i64) -> Option<Found> {
     let (whole, to) = digits(line, at)?;
@@ -181,6 +197,10 @@ mod tests {
         assert_eq!(read("2026-03-02T09:30:05+01:00 x"), Some((day + 34_205 * SECOND, " x")));
         assert_eq!(read("1970-01-01 x"), Some((0, " x")));
         assert_eq!(read("12.345678] x"), Some((12_345_678, "] x")));
+        assert_eq!(read("1772443805123 x"), Some((1_772_443_805_123_000, " x")));
+        assert_eq!(read("1772443805123x"), None);
+        assert_eq!(read("1103006000037"), None, "what is typed");
+        assert_eq!(read("0103000A00C80003"), None);
         assert_eq!(read("192.168.0.10:502"), None);
         assert_eq!(read("50.0 ms"), None);
     }

@@ -39,7 +39,17 @@ pub enum Ask {
     /// A damaged telegram that is to be made right.
     Repair { damaged: String, telegram: String },
     /// Bits that are to be set.
-    Bits { from: Vec<u8>, to: Vec<u8>, float: bool },
+    Bits { from: Vec<u8>, to: Vec<u8>, reading: Reading },
+}
+
+/// What bits are read as while they are set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reading {
+    /// A sum of what each is worth.
+    Sum,
+    /// Hex digits.
+    Hex,
+    Float,
 }
 
 /// What separates a telegram from the request that it answers.
@@ -52,8 +62,11 @@ impl Exercise {
     /// Whether `answer` is right; otherwise what is off. The bytes that somebody set are given as text.
     pub fn grade(&self, step: &Step, answer: &Answer) -> Verdict {
         match (&self.ask, answer) {
+            (Ask::Choose { .. } | Ask::Point { .. }, Answer::Text(_)) => {
+                Verdict::Unread(message!("nothing is chosen yet"))
+            }
             (Ask::Point { field, wrong }, Answer::Byte(at)) => point(step, field, wrong, *at),
-            (Ask::Bits { to, float, .. }, Answer::Text(text)) => set(to, *float, &steps::bytes(text)),
+            (Ask::Bits { to, reading, .. }, Answer::Text(text)) => set(to, *reading, &steps::bytes(text)),
             (Ask::Number { wrong, .. }, Answer::Text(text))
                 if let Ok(written) = notation::read(text, 8, Format::Decimal, Notation::Any)
                     && let Some((_, said)) = wrong.iter().find(|(value, _)| *value == written.raw) =>
@@ -64,6 +77,15 @@ impl Exercise {
                 Some(task) => grade(&task, answer),
                 None => Verdict::Unread(message!("there is no answer to this")),
             },
+        }
+    }
+
+    /// What stands in the place for the answer at first.
+    pub fn start(&self) -> String {
+        match &self.ask {
+            Ask::Repair { damaged, .. } => damaged.clone(),
+            Ask::Bits { from, .. } => hex(from),
+            _ => String::new(),
         }
     }
 
@@ -264,7 +286,7 @@ fn point(step: &Step, name: &str, wrong: &[(String, String)], at: usize) -> Verd
 }
 
 /// Whether bits are set as they should be.
-fn set(to: &[u8], float: bool, given: &[u8]) -> Verdict {
+fn set(to: &[u8], reading: Reading, given: &[u8]) -> Verdict {
     if given == to {
         return Verdict::Right(None);
     }
@@ -273,7 +295,7 @@ fn set(to: &[u8], float: bool, given: &[u8]) -> Verdict {
     }
     let number = |bytes: &[u8]| bytes.iter().fold(0_u64, |number, byte| number << 8 | u64::from(*byte));
     let off = number(given) ^ number(to);
-    if float {
+    if reading == Reading::Float {
         // Sign, exponent, fraction: the first that is off.
         let (part, span) = match off.leading_zeros() - 32 {
             0 => ("sign", Span::new(0, 1)),

@@ -4,7 +4,7 @@
 use buslens::field::{Format, Span};
 use buslens::tool::{PROFILES, PROTOCOLS, Profile, Protocol, steps::bytes};
 
-use super::exercise::{Ask, Exercise};
+use super::exercise::{Ask, Exercise, Reading};
 use super::{Lesson, Mistake, Place, Remark, Show, Statement, Step, Telegram};
 use crate::notation::{self, Notation};
 use crate::task::Choice;
@@ -57,6 +57,8 @@ struct Reader {
     exercise: Option<Draft>,
     /// The next line of text begins a paragraph.
     apart: bool,
+    /// The line before was text.
+    in_text: bool,
     mistakes: Vec<Mistake>,
 }
 
@@ -84,6 +86,7 @@ impl Reader {
     }
 
     fn take(&mut self, line: &str, number: usize) {
+        let mut text = false;
         if line.is_empty() {
             self.apart = true;
         } else if line.starts_with("//") {
@@ -104,14 +107,17 @@ impl Reader {
             self.take_log(logged, number);
         } else if let Some(remark) = line.strip_prefix("- ") {
             self.take_remark(remark, number);
-        } else if let Some((key, value)) = key(line) {
+        } else if let Some((key, value)) = key(line).filter(|(key, _)| !self.in_text || is_known(key)) {
             self.take_key(key, value, number);
         } else {
             self.take_text(line, number);
+            text = true;
         }
         if !line.is_empty() {
             self.apart = false;
         }
+        // A paragraph may have a word with a colon behind it at the beginning of a line.
+        self.in_text = text;
     }
 
     fn take_text(&mut self, line: &str, number: usize) {
@@ -289,7 +295,7 @@ impl Reader {
             },
             _ => match bits(value) {
                 Some(asked) => asked,
-                None => return self.say(number, "Expected “bits: 00 -> 3C”, of one to four bytes on each side, with “as float” behind them where four are one."),
+                None => return self.say(number, "Expected “bits: 00 -> 3C”, of one to four bytes on each side, with “as sum” behind them, or “as float” where four are one."),
             },
         };
         if draft.asked.is_some() {
@@ -365,6 +371,10 @@ fn key(line: &str) -> Option<(&str, &str)> {
     (small && (value.is_empty() || value.starts_with(' '))).then(|| (key, value.trim()))
 }
 
+fn is_known(key: &str) -> bool {
+    [OF_LESSON, OF_STEP, OF_TASK].iter().any(|keys| keys.contains(&key))
+}
+
 /// Whether a word can stand in a link.
 fn is_key(word: &str) -> bool {
     let fits = |it: u8| it.is_ascii_lowercase() || it.is_ascii_digit() || it == b'-';
@@ -407,9 +417,16 @@ fn numbered(text: &str) -> Option<u64> {
 }
 
 fn bits(value: &str) -> Option<Ask> {
-    let (value, float) = value.strip_suffix(" as float").map_or((value, false), |rest| (rest, true));
+    let (value, reading) = match value.rsplit_once(" as ") {
+        Some((value, "sum")) => (value, Reading::Sum),
+        Some((value, "float")) => (value, Reading::Float),
+        Some(_) => return None,
+        None => (value, Reading::Hex),
+    };
     let (from, to) = value.split_once("->")?;
     let (from, to) = (bytes(from), bytes(to));
-    let fits = (1..=4).contains(&from.len()) && from.len() == to.len() && (!float || from.len() == 4);
-    fits.then_some(Ask::Bits { from, to, float })
+    let fits = (1..=4).contains(&from.len())
+        && from.len() == to.len()
+        && (reading != Reading::Float || from.len() == 4);
+    fits.then_some(Ask::Bits { from, to, reading })
 }

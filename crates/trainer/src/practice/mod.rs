@@ -152,7 +152,7 @@ impl Seed {
 
     /// The seed of the next round, when nobody wishes another.
     pub fn next(self) -> Self {
-        Self::new(Random::of(&[u64::from(self.0)]).next())
+        Self::new(Random::of(&[u64::from(self.0)]).draw())
     }
 }
 

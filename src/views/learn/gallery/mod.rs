@@ -283,13 +283,21 @@ fn slipped(sample: &Sample, slip: &Slip) -> AnyView {
                 <Icon glyph=Glyph::Warning />
                 "misprinted"
             </span>
-            <span>"In print " {slip.what.clone()} ". Corrected:"</span>
+            <span>{capital(&slip.what)} ". Corrected:"</span>
             <a href=href(View::Read, &sample.corrected(slip)) title="Open the corrected telegram in Read">
                 <code>{hex(&slip.right)}</code>
             </a>
         </p>
     }
     .into_any()
+}
+
+fn capital(text: &str) -> String {
+    let mut text = text.to_owned();
+    if let Some(first) = text.get_mut(..1) {
+        first.make_ascii_uppercase();
+    }
+    text
 }
 
 #[cfg(test)]

@@ -49,7 +49,7 @@ fn Sign(number: usize, course: Course) -> impl IntoView {
     }
 }
 
-/// All lessons, beside the one that is open.
+/// All lessons, beside the one that is open. Where there is no room for them, "Lessons" leads to the first page.
 #[component]
 pub fn Contents(here: Here) -> impl IntoView {
     let state = state();
@@ -76,17 +76,9 @@ pub fn Contents(here: Here) -> impl IntoView {
     };
     view! {
         <nav class="contents" aria-label="All lessons">
-            <details open=wide()>
-                <summary>"All lessons"</summary>
-                {move || grouped(state.courses()).into_iter().map(&group).collect_view()}
-            </details>
+            {move || grouped(state.courses()).into_iter().map(&group).collect_view()}
         </nav>
     }
-}
-
-/// Whether there is room for the list beside a step.
-fn wide() -> bool {
-    window().match_media("(width >= 1000px)").ok().flatten().is_some_and(|media| media.matches())
 }
 
 /// The first page.
@@ -170,9 +162,9 @@ pub fn Overview() -> impl IntoView {
     view! {
         <div class="overview">
             <header>
-                <h2>"Field buses, byte by byte"</h2>
+                <h2 tabindex="-1">"Field buses, byte by byte"</h2>
                 <p>
-                    "Short lessons on real telegrams. In each you first look, then fill in, then build, then mend something that is broken. "
+                    "Short lessons on real telegrams. In each you first look, then fill in, then build, then mend one that is damaged. "
                     {so_far}
                 </p>
                 {go_on}

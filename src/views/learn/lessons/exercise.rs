@@ -12,7 +12,7 @@ use crate::components::byte_strip::{Block, ByteStrip, Chosen, Lights, blocks};
 use crate::components::icon::{Glyph, Icon};
 use crate::views::learn::LearnState;
 use buslens::field::{Span, hex};
-use buslens::tool::steps::bytes;
+use buslens::tool::steps::{CHECKS, bytes};
 use buslens_trainer::lesson::{Ask, Exercise as Asked};
 use buslens_trainer::{Answer, Remark, Telegram, Verdict};
 
@@ -40,7 +40,10 @@ impl Task {
     fn grade(self) {
         let here = self.here.get_value();
         let answer = self.attempt.with_untracked(|it| it.answer.clone());
-        let answer = answer.unwrap_or(Answer::Text(String::new()));
+        // Who changed nothing hands in what was there.
+        let start =
+            || here.step().and_then(|step| step.exercise.as_ref()).map_or(String::new(), Asked::start);
+        let answer = answer.unwrap_or_else(|| Answer::Text(start()));
         self.state.grade(&here, answer);
     }
 
@@ -75,24 +78,26 @@ pub fn Exercise(here: Here) -> impl IntoView {
     let right = exercise.answer(&step);
     view! {
         <aside class="task" aria-labelledby="task-title">
-            <p class="tag">
-                <Icon glyph=Glyph::Edit />
-                "Your turn"
-            </p>
-            <h3 id="task-title">
-                <Words text=question />
-            </h3>
-            <form on:submit=submit>
-                {answer}
-                <Outcome task then here />
-                <div class="actions">
-                    <button type="submit" class="button main">
-                        "Check my answer"
-                    </button>
-                    <HintButton task count=hints.len() right />
-                </div>
-            </form>
-            <Hints task hints />
+            <div class="stays">
+                <p class="tag">
+                    <Icon glyph=Glyph::Edit />
+                    "Your turn"
+                </p>
+                <h3 id="task-title">
+                    <Words text=question />
+                </h3>
+                <form on:submit=submit>
+                    {answer}
+                    <Outcome task then here />
+                    <div class="actions">
+                        <button type="submit" class="button main">
+                            "Check my answer"
+                        </button>
+                        <HintButton task count=hints.len() right />
+                    </div>
+                </form>
+                <Hints task hints />
+            </div>
         </aside>
     }
     .into_any()
@@ -130,14 +135,14 @@ fn Place(task: Task, exercise: Asked) -> impl IntoView {
                 }
             })
             .into_any(),
-        Ask::Bits { from, to, float } => {
+        Ask::Bits { from, to, reading } => {
             let width = from.len();
             let start = number(&from);
             let value = Signal::derive(move || task.text().map_or(start, |text| number(&bytes(&text))));
             let on_set = Callback::new(move |value: u32| {
                 task.answer(Answer::Text(hex(&value.to_be_bytes()[4 - width..])));
             });
-            view! { <Switches value on_set width float wanted=number(&to) /> }.into_any()
+            view! { <Switches value on_set width reading wanted=number(&to) /> }.into_any()
         }
     }
 }
@@ -155,7 +160,7 @@ fn Choices(task: Task, texts: Vec<String>) -> impl IntoView {
     let choice = move |(index, text): (usize, String)| {
         let here = move || chosen() == Some(index);
         view! {
-            <li class:right=move || here() && graded() == Some(true) class:off=move || here() && graded() == Some(false)>
+            <div class:right=move || here() && graded() == Some(true) class:off=move || here() && graded() == Some(false)>
                 <label>
                     <input
                         type="radio"
@@ -167,13 +172,13 @@ fn Choices(task: Task, texts: Vec<String>) -> impl IntoView {
                         <Words text />
                     </span>
                 </label>
-            </li>
+            </div>
         }
     };
     view! {
-        <ol class="choices" role="radiogroup" aria-labelledby="task-title">
+        <div class="choices" role="radiogroup" aria-labelledby="task-title">
             {texts.into_iter().enumerate().map(choice).collect_view()}
-        </ol>
+        </div>
     }
 }
 
@@ -184,7 +189,7 @@ fn Typed(task: Task, #[prop(into)] start: String, label: &'static str) -> impl I
         move || task.attempt.with(|it| matches!(it.verdict, Some(Verdict::Wrong(_) | Verdict::Unread(_))));
     let value = move || task.text().unwrap_or_else(|| start.clone());
     view! {
-        <label class="entry">
+        <label class="typed">
             <span class="name">{label}</span>
             <input
                 class="input mono"
@@ -203,11 +208,23 @@ fn Typed(task: Task, #[prop(into)] start: String, label: &'static str) -> impl I
 #[component]
 fn Live(task: Task, telegram: Telegram, #[prop(into)] start: String) -> impl IntoView {
     let lights = Lights::new();
+    let check = telegram.check().filter(|check| check.covered.to + check.width == telegram.bytes.len());
+    let typed = Memo::new(move |_| bytes(&task.text().unwrap_or_else(|| start.clone())));
+    // Its place is kept free until all before it is there.
+    let added = Memo::new(move |_| {
+        let check = check.filter(|check| typed.with(Vec::len) <= check.covered.to)?;
+        let algorithm = CHECKS.iter().find(|it| it.kind == check.kind)?;
+        Some(typed.with(|typed| algorithm.wire(typed).to_be_bytes()[8 - check.width..].to_vec()))
+    });
     let shown = Memo::new(move |_| {
-        let typed = bytes(&task.text().unwrap_or_else(|| start.clone()));
-        let report = telegram.with(typed.clone()).report();
-        let detail = (!typed.is_empty()).then(|| report.detail(report.telegrams.len() - 1)).flatten();
-        detail.map_or(Vec::new(), |detail| blocks(&detail, &typed))
+        let mut whole = typed.get();
+        if whole.is_empty() {
+            return Vec::new();
+        }
+        whole.extend(added.get().unwrap_or_default());
+        let report = telegram.with(whole.clone()).report();
+        let detail = report.telegrams.len().checked_sub(1).and_then(|last| report.detail(last));
+        detail.map_or(Vec::new(), |detail| blocks(&detail, &whole))
     });
     // What is off lights up.
     Effect::new(move |_| {
@@ -219,6 +236,9 @@ fn Live(task: Task, telegram: Telegram, #[prop(into)] start: String) -> impl Int
     view! {
         <Show when=move || !shown.with(Vec::is_empty)>
             <ByteStrip blocks=shown lights size="small" label="The bytes so far. Arrow keys go from byte to byte." />
+            <Show when=move || added.with(Option::is_some)>
+                <p class="note">"The checksum is added by the page."</p>
+            </Show>
         </Show>
     }
 }
@@ -253,7 +273,7 @@ fn Pointed(task: Task) -> impl IntoView {
         }
         at
     });
-    view! { <ByteStrip blocks=cells lights label="Choose a byte. Arrow keys go from byte to byte." /> }
+    view! { <ByteStrip blocks=cells lights size="bare" label="Choose a byte. Arrow keys go from byte to byte." /> }
 }
 
 /// A telegram with fields left blank.

@@ -52,16 +52,22 @@ pub fn StepText(here: Here) -> impl IntoView {
             }
             .into_any()
         }
-        Show::Log => view! { <LogLines step=step.clone() /> }.into_any(),
+        Show::Log => {
+            let walk = (!shown.is_empty()).then(|| view! { <Walk step=step.clone() shown=shown.clone() /> });
+            view! {
+                <LogLines step=step.clone() />
+                {walk}
+            }
+            .into_any()
+        }
     };
     view! {
         <article class="step" aria-labelledby="step-title">
             <Way here=here.clone() />
-            <h2 id="step-title">{step.title.clone()}</h2>
+            <h2 id="step-title" tabindex="-1">{step.title.clone()}</h2>
             <div class="prose">{text}</div>
             {body}
             <Elsewhere step shown report />
-            <Around here />
         </article>
     }
     .into_any()
@@ -160,7 +166,7 @@ fn Elsewhere(step: Step, shown: Vec<Shown>, report: Arc<Report>) -> impl IntoVie
 
 /// Back, and the lesson as a file.
 #[component]
-fn Around(here: Here) -> impl IntoView {
+pub fn Around(here: Here) -> impl IntoView {
     let course = here.course.clone();
     let lesson = course.lesson.clone();
     let back = here.step.checked_sub(1).map(|step| link_to(&lesson, step));

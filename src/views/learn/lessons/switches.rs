@@ -6,6 +6,7 @@ use leptos::prelude::*;
 
 use crate::components::roving;
 use buslens::field::{Format, hex_value, number_text};
+use buslens_trainer::lesson::Reading;
 
 /// A few bits that mean something together.
 #[derive(Clone, Copy)]
@@ -35,11 +36,12 @@ pub fn Switches(
     #[prop(into)] value: Signal<u32>,
     on_set: Callback<u32>,
     width: usize,
-    float: bool,
+    reading: Reading,
     wanted: u32,
 ) -> impl IntoView {
     let root = NodeRef::<html::Div>::new();
     let bits = 8 * width as u32;
+    let float = reading == Reading::Float;
     let parts: Vec<Part> = match float {
         true => FLOAT.to_vec(),
         // Half a byte is a digit.
@@ -78,6 +80,8 @@ pub fn Switches(
                 "sign" => if bits == 0 { "+" } else { "−" }.to_owned(),
                 "exponent" => format!("{bits}: times 2 to the power of {}", bits as i32 - 127),
                 "fraction" => format!("{:.6}", 1.0 + f64::from(bits) / f64::from(1_u32 << 23)),
+                // What hex is, is not known yet.
+                _ if reading == Reading::Sum => String::new(),
                 _ => format!("{bits:X}"),
             }
         };
@@ -89,9 +93,14 @@ pub fn Switches(
             </li>
         }
     };
-    let shown = move |value: u32| match float {
-        true => number_text(value.into(), 4, Format::Float),
-        false => format!("{value} = {}", hex_value(value.into(), width)),
+    let shown = move |value: u32| match reading {
+        Reading::Float => number_text(value.into(), 4, Format::Float),
+        Reading::Hex => format!("{} = {value}", hex_value(value.into(), width)),
+        Reading::Sum => {
+            let on = (0..bits).rev().map(|bit| 1_u32 << bit).filter(|worth| value & worth != 0);
+            let worth: Vec<String> = on.map(|worth| worth.to_string()).collect();
+            if worth.len() < 2 { value.to_string() } else { format!("{} = {value}", worth.join(" + ")) }
+        }
     };
     view! {
         <div class="switches" class:float=float node_ref=root on:keydown=keys>

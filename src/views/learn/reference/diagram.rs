@@ -44,7 +44,7 @@ fn draw(node: &Node<'_>) -> AnyView {
             let is_list = row.size == Size::List;
             let drawn: Vec<AnyView> = within.iter().map(draw).collect();
             view! {
-                <li class="around" class:list=is_list>
+                <li class="around" class:repeated=is_list>
                     <span class="label">{row.spec.short}</span>
                     <ol>{drawn}</ol>
                     {is_list.then_some(view! { <span class="times">"× n"</span> })}
@@ -151,13 +151,13 @@ pub fn BitDiagram(spec: &'static Spec) -> impl IntoView {
             }
         });
         let names: Vec<_> = names.map(IntoAny::into_any).chain(ranges.map(IntoAny::into_any)).collect();
-        let said = if part.reserved { "must be 0" } else { part.note };
+        let said = if part.reserved { "Must be 0." } else { part.note };
         view! {
             <tr>
-                <td class="mono">{place}</td>
-                <th scope="row">{Message::term(part.label).sentence()}</th>
+                <th scope="row" class="mono">{place}</th>
                 <td>
-                    {said}
+                    <b>{Message::term(part.label).sentence()}</b>
+                    {(!said.is_empty()).then(|| format!(". {said}"))}
                     {(!names.is_empty()).then(|| view! { <ul>{names}</ul> })}
                 </td>
             </tr>

@@ -7,7 +7,7 @@ use leptos::prelude::*;
 use super::diagram::BitDiagram;
 use crate::address::{View, href};
 use crate::components::icon::{Glyph, Icon};
-use buslens::field::{Name, Spec};
+use buslens::field::{Format, Name, Spec, hex_value};
 use buslens::tool::reference::{About, Code, Doing, Item, Register};
 
 /// The entry that is chosen, beside the table.
@@ -129,6 +129,14 @@ pub fn source(source: &'static str) -> Option<AnyView> {
         .then(|| view! { <p class="note">"Source: " <cite>{source} "."</cite></p> }.into_any())
 }
 
+/// A value as the manual writes it.
+fn value_text(spec: &'static Spec, value: u64) -> String {
+    match spec.format {
+        Format::Hex => hex_value(value, if value > 0xFF { 2 } else { 1 }),
+        _ => value.to_string(),
+    }
+}
+
 /// What single values and bits of a number mean.
 pub fn values(spec: &'static Spec) -> AnyView {
     let named = spec.names.iter().filter(|name| !name.label.is_empty()).collect::<Vec<_>>();
@@ -136,9 +144,11 @@ pub fn values(spec: &'static Spec) -> AnyView {
         let row = |name: &&Name| {
             view! {
                 <tr>
-                    <td class="mono">{name.value}</td>
-                    <th scope="row">{name.label}</th>
-                    <td>{name.note}</td>
+                    <th scope="row" class="mono">{value_text(spec, name.value)}</th>
+                    <td>
+                        <b>{name.label}</b>
+                        {(!name.note.is_empty()).then(|| format!(". {}", name.note))}
+                    </td>
                 </tr>
             }
         };

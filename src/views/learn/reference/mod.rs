@@ -75,14 +75,19 @@ impl Place {
         if self.item.is_empty() {
             return None;
         }
-        let (book, chapter) = self.chapter?;
+        let mut parts = self.item.split(':');
+        let (book, chapter) = match self.chapter {
+            Some(chapter) => chapter,
+            None => (Book::of(parts.next()?)?, Chapter::of(parts.next()?)?),
+        };
+        let key = parts.next()?;
         let of = |item: &&Arc<Item>| (item.book, item.chapter) == (book, chapter);
         let mut all = ITEMS.iter().filter(of);
-        let listed = all.find(|item| item.key == self.item).cloned();
+        let listed = all.find(|item| item.key == key).cloned();
         // Of a range, the address that was typed stands in the link.
         listed.or_else(|| {
             let within: Vec<Arc<Item>> = ITEMS.iter().filter(of).cloned().collect();
-            find(&within, &self.item).into_iter().find(|item| item.key == self.item)
+            find(&within, key).into_iter().find(|item| item.key == key)
         })
     }
 }
@@ -92,10 +97,16 @@ fn place_of(item: &Item, typed: &str) -> Place {
     Place { chapter: Some((item.book, item.chapter)), item: item.key.clone(), typed: typed.to_owned() }
 }
 
+/// Whether it has a page of its own.
+const fn is_topic(item: &Item) -> bool {
+    matches!(item.about, About::Telegram(_))
+}
+
 /// What an item is about, in a few words.
 fn about(item: &Item) -> String {
     match &item.about {
-        About::Telegram(topic) => topic.code.clone(),
+        About::Telegram(topic) if topic.code.is_empty() => topic.note.to_owned(),
+        About::Telegram(topic) => format!("{}: {}", topic.code, topic.note),
         About::Register(register) => register.kind.clone(),
         About::Code(code) => code.of.clone(),
     }
@@ -130,7 +141,7 @@ pub fn Reference() -> impl IntoView {
         let to = Place { typed: typed.get_untracked(), ..Place::default() };
         state.go_to(Part::Reference, to.text());
     };
-    let topic = Memo::new(move |_| open.get().filter(|open| matches!(open.0.about, About::Telegram(_))));
+    let topic = Memo::new(move |_| open.get().filter(|open| is_topic(&open.0)));
     let is_start = move || chapter.get().is_none() && typed.with(|typed| typed.trim().is_empty());
     let content = move || {
         if let Some(ByKey(item)) = topic.get() {
@@ -142,18 +153,24 @@ pub fn Reference() -> impl IntoView {
         let chosen = Signal::derive(move || open.get().map(|open| open.0));
         let on_choose = Callback::new(move |item: Arc<Item>| {
             let chapter = chapter.get_untracked();
-            let is_topic = matches!(item.about, About::Telegram(_));
-            // A telegram has a page of its own; what else is found in all of it stays among what was found.
             let to = place_of(&item, &typed.get_untracked());
-            let to = if is_topic || chapter.is_some() { to } else { Place { chapter: to.chapter, ..to } };
+            // A telegram has a page of its own; what else is found in all of it stays among what was found.
+            let among = format!("{}:{}:{}", item.book.key(), item.chapter.key(), item.key);
+            let to = match chapter {
+                None if !is_topic(&item) => Place { chapter: None, item: among, ..to },
+                _ => to,
+            };
             state.go_to(Part::Reference, to.text());
         });
         let rows = Signal::derive(move || found.get().0);
         let with_book = Signal::derive(move || chapter.get().is_none());
+        let are_pages = move || chapter.get().is_some_and(|(_, chapter)| chapter == Chapter::Telegrams);
         view! {
-            <div class="looked-up">
+            <div class="looked-up" class:pages=are_pages>
                 <Table rows chosen with_book on_choose />
-                <Entry item=chosen />
+                <Show when=move || !are_pages()>
+                    <Entry item=chosen />
+                </Show>
             </div>
         }
         .into_any()
@@ -233,7 +250,7 @@ fn Contents(chapter: Memo<Option<(Book, Chapter)>>) -> impl IntoView {
         };
         view! {
             <li>
-                <span class="book">{book.label()}</span>
+                <span class="book">{book.short()}</span>
                 <ul>{book.chapters().map(link).into_iter().collect_view()}</ul>
             </li>
         }
@@ -317,9 +334,13 @@ mod tests {
 
     #[test]
     fn a_place_leads_back() {
-        for place in
-            ["", "modbus.telegrams", "modbus.telegrams.16", "keb-f5-modbus.registers..fb.05", "...set speed"]
-        {
+        for place in [
+            "",
+            "..modbus:codes:x.a.b",
+            "modbus.telegrams.16",
+            "keb-f5-modbus.registers..fb.05",
+            "...set speed",
+        ] {
             assert_eq!(Place::of(place).text(), place);
         }
         assert_eq!(Place::of("modbus.telegrams.16").open().unwrap().label, "Write multiple registers");
@@ -328,6 +349,8 @@ mod tests {
             "Inverter parameter 0050h"
         );
         assert!(Place::of("nothing.at.all").open().is_none());
+        let among = Place::of("..memograph-rsg45:registers:215.channel 6");
+        assert_eq!(among.open().unwrap().label, "Universal channel 6");
     }
 
     #[test]

@@ -6,7 +6,7 @@ use leptos::ev::{self, KeyboardEvent, MouseEvent};
 use leptos::html;
 use leptos::prelude::*;
 
-use super::about;
+use super::{about, is_topic};
 use crate::address::{View, href};
 use buslens::tool::reference::{About, Item};
 
@@ -32,6 +32,13 @@ pub fn Table(
     let resized = window_event_listener(ev::resize, move |_| high.set(row_height()));
     on_cleanup(move || resized.remove());
     let total = Memo::new(move |_| rows.with(Vec::len));
+    let limited = Memo::new(move |_| {
+        let limits = |item: &Arc<Item>| match &item.about {
+            About::Register(register) => register.spec.limits.is_some() || !register.spec.unit.is_empty(),
+            _ => false,
+        };
+        rows.with(|rows| rows.iter().any(limits))
+    });
     let measure = move || {
         if let Some(list) = list.get_untracked() {
             scrolled.set(list.scroll_top().max(0) as usize);
@@ -47,13 +54,16 @@ pub fn Table(
             (first..).zip(rows.iter().cloned()).collect::<Vec<_>>()
         })
     };
-    let at = Memo::new(move |_| {
+    // Of what has a page of its own, arrows only mark the row.
+    let marked = RwSignal::new(None::<usize>);
+    let place = Memo::new(move |_| {
         let chosen = chosen.get()?;
         let same = |item: &Arc<Item>| {
             item.key == chosen.key && (item.book, item.chapter) == (chosen.book, chosen.chapter)
         };
         rows.with(|rows| rows.iter().position(same))
     });
+    let at = Memo::new(move |_| place.get().or_else(|| marked.get().filter(|at| *at < total.get())));
     // Other rows begin at the top; what is chosen is in sight.
     Effect::new(move |before: Option<usize>| {
         let (Some(list), now) = (list.get(), total.get()) else { return 0 };
@@ -61,6 +71,9 @@ pub fn Table(
         let high = high.get_untracked();
         let height = (list.client_height() as usize).saturating_sub(high);
         let top = list.scroll_top().max(0) as usize;
+        if before.is_some_and(|before| before != now) {
+            marked.set(None);
+        }
         match at.map(|at| at * high) {
             Some(at) if at < top || at + high > top + height => {
                 list.set_scroll_top(at.saturating_sub(height / 3) as i32);
@@ -82,6 +95,7 @@ pub fn Table(
         let now = at.get_untracked();
         let to = match (event.key().as_str(), now) {
             ("ArrowDown" | "ArrowUp" | "Enter", None) => 0,
+            ("Enter", Some(at)) => at,
             ("ArrowDown", Some(at)) => at + 1,
             ("ArrowUp", Some(at)) => at.saturating_sub(1),
             ("PageDown", at) => at.unwrap_or_default() + page,
@@ -91,13 +105,30 @@ pub fn Table(
             _ => return,
         };
         event.prevent_default();
-        choose(to.min(last));
+        let to = to.min(last);
+        marked.set(Some(to));
+        let opens = rows.with_untracked(|rows| rows.get(to).is_some_and(|item| is_topic(item)));
+        if !opens || event.key() == "Enter" {
+            choose(to);
+        }
+    };
+    let click = move |at: usize| {
+        choose(at);
+        request_animation_frame(|| {
+            // Where the entry is below the list, it comes into sight.
+            let narrow =
+                window().match_media("(width < 1200px)").ok().flatten().is_some_and(|it| it.matches());
+            if let Some(entry) = document().query_selector(".entry").ok().flatten().filter(|_| narrow) {
+                entry.scroll_into_view();
+            }
+        });
     };
     view! {
         <div
             node_ref=list
             class="found"
             class:with-book=move || with_book.get()
+            class:no-limits=move || !limited.get()
             role="grid"
             tabindex="0"
             aria-label="What was found"
@@ -125,7 +156,7 @@ pub fn Table(
                         key=|(place, item)| (*place, item.book.key(), item.chapter.key(), item.key.clone())
                         children=move |(place, item)| {
                             let is_chosen = move || at.get() == Some(place);
-                            row(place, &item, is_chosen, choose)
+                            row(place, &item, is_chosen, click)
                         }
                     />
                 </div>
@@ -184,7 +215,7 @@ fn row(
             <span role="gridcell" class="l">{label} {id}</span>
             <span role="gridcell" class="k">{about(item)}</span>
             <span role="gridcell" class="m">{allowed} " " {unit}</span>
-            <span role="gridcell" class="b">{item.book.label()}</span>
+            <span role="gridcell" class="b">{item.book.short()}</span>
             <span role="gridcell" class="d">{drafts.collect_view()}</span>
         </div>
     }

@@ -30,6 +30,8 @@ pub fn TopicPage(item: Arc<Item>) -> impl IntoView {
     let choose = Callback::new(move |at| carrier.set(at));
     let neighbours = neighbours(&item);
     let (label, code, note, said_by) = (item.label.clone(), topic.code.clone(), topic.note, topic.source);
+    // Its telegrams say it themselves.
+    let repeated = topic.layouts(carriers[0]).iter().any(|layout| layout.note == note);
     let draft = topic.draft().map(|link| {
         view! {
             <a class="button" href=href(View::Build, &link)>
@@ -94,7 +96,7 @@ pub fn TopicPage(item: Arc<Item>) -> impl IntoView {
                     </button>
                 </div>
             </header>
-            <p>{note}</p>
+            {(!repeated).then(|| view! { <p>{note}</p> })}
             {layouts}
             <footer>{source(said_by)}</footer>
         </article>
@@ -151,7 +153,11 @@ fn example(
                     || said.protocol.label == item.label
             }
         };
-        same && said.direction == layout.direction && said.protocol.key == carrier.key && !said.is_faulty
+        same && layout.fits(&said.bytes)
+            && !said.sentence.contains("still")
+            && said.direction == layout.direction
+            && said.protocol.key == carrier.key
+            && !said.is_faulty
     };
     SAMPLES.iter().find(fits).map(|(sample, said)| (sample, said))
 }
@@ -165,6 +171,14 @@ fn Telegram(layout: Layout, example: Option<(&'static Sample, &'static Said)>) -
     };
     let note = (!layout.note.is_empty()).then(|| view! { <p class="note">{layout.note}</p> });
     let rows = layout.rows.clone();
+    let drawn = match rows.is_empty() {
+        true => view! { <p>"It has no data: the access points in its frame say all."</p> }.into_any(),
+        false => view! {
+            <Diagram rows=layout.rows />
+            <Fields rows />
+        }
+        .into_any(),
+    };
     view! {
         <section class="telegram">
             <h4>
@@ -172,8 +186,7 @@ fn Telegram(layout: Layout, example: Option<(&'static Sample, &'static Said)>) -
                 {layout.title}
             </h4>
             {note}
-            <Diagram rows=layout.rows />
-            <Fields rows />
+            {drawn}
             {example.map(|(sample, said)| view! { <Example sample said /> })}
         </section>
     }

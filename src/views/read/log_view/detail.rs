@@ -139,9 +139,17 @@ fn Lines(text: String, places: Vec<(usize, usize)>) -> impl IntoView {
     if text.is_empty() {
         return None;
     }
+    // Bytes with nothing but blanks between them are one mark: each would be told by itself.
+    let mut runs: Vec<(usize, usize)> = Vec::new();
+    for (from, to) in places {
+        match runs.last_mut() {
+            Some((_, end)) if text.get(*end..from).is_some_and(|gap| gap.trim().is_empty()) => *end = to,
+            _ => runs.push((from, to)),
+        }
+    }
     let mut at = 0;
     let mut pieces = Vec::new();
-    for (from, to) in places {
+    for (from, to) in runs {
         let (Some(between), Some(byte)) = (text.get(at..from), text.get(from..to)) else { break };
         pieces.push(view! {
             {between.to_owned()}
@@ -153,7 +161,7 @@ fn Lines(text: String, places: Vec<(usize, usize)>) -> impl IntoView {
     Some(view! {
         <details class="fold" open=true>
             <summary>"In the log"</summary>
-            <pre class="source" tabindex="0" aria-label="In the log">
+            <pre class="source" tabindex="0" role="region" aria-label="In the log">
                 {pieces}
                 {rest}
             </pre>
@@ -170,7 +178,7 @@ fn Discarded(told: messages::Shown) -> impl IntoView {
     let text = hex(&bytes[..bytes.len().min(SHOWN)]) + more;
     view! {
         <h3 class="says">{Message::bytes(bytes.len()).to_string()} " that belong to no telegram."</h3>
-        <pre class="source" tabindex="0" aria-label="The bytes">{text}</pre>
+        <pre class="source" tabindex="0" role="region" aria-label="The bytes">{text}</pre>
         <div class="acts">
             <CopyButton text=hex(&bytes) label="Copy as hex" />
         </div>

@@ -9,7 +9,7 @@ use crate::components::state_badge::StateBadge;
 use crate::views::read::ReadState;
 use crate::views::read::times::{clock, day_and_clock, delta, is_over_days};
 use buslens::field::Direction;
-use buslens::tool::log::Row;
+use buslens::tool::log::{Row, State};
 
 /// The height of a row in pixels; the stylesheet has the same.
 const HIGH: usize = 28;
@@ -63,21 +63,29 @@ pub fn List() -> impl IntoView {
     let dated = Memo::new(move |_| {
         log.overview.with(|overview| is_over_days(overview.as_ref().and_then(|overview| overview.times)))
     });
-    // The telegram that is shown is in sight, wherever it was chosen.
+    // The telegram that is shown is in sight, wherever it was chosen. In the next frame: to ask for heights while
+    // the rest of the log is being drawn would lay out all of it at once.
     Effect::new(move |_| {
         let (Some(place), Some(list)) = (place.get(), list.get()) else { return };
-        let (high, total) = (high.get_untracked(), total.get());
-        // The head of the list stays over its first rows.
-        let height = (list.client_height() as usize).saturating_sub(high);
-        let scrolled = list.scroll_top().max(0) as usize;
-        let at = if steps.get_untracked() {
-            (place as f64 / total.max(1) as f64 * whole.get_untracked() as f64) as usize
-        } else {
-            place * high
-        };
-        if at < scrolled || at + high > scrolled + height {
-            list.set_scroll_top(at.saturating_sub(height / 3) as i32);
-        }
+        let total = total.get();
+        request_animation_frame(move || {
+            // The log may be closed by now.
+            let (Some(high), Some(steps)) = (high.try_get_untracked(), steps.try_get_untracked()) else {
+                return;
+            };
+            // The head of the list stays over its first rows.
+            let height = (list.client_height() as usize).saturating_sub(high);
+            let scrolled = list.scroll_top().max(0) as usize;
+            let at = if steps {
+                (place as f64 / total.max(1) as f64 * whole.try_get_untracked().unwrap_or_default() as f64)
+                    as usize
+            } else {
+                place * high
+            };
+            if at < scrolled || at + high > scrolled + height {
+                list.set_scroll_top(at.saturating_sub(height / 3) as i32);
+            }
+        });
     });
     let rows = move || log.rows.with(|(from, rows)| (*from..).zip(rows.iter().cloned()).collect::<Vec<_>>());
     let keys = move |event: KeyboardEvent| {
@@ -221,7 +229,13 @@ fn ListRow(place: usize, row: Row, dated: bool) -> impl IntoView {
                 {unit
                     .map(|unit| {
                         view! {
-                            <button type="button" tabindex="-1" title="Only this unit" on:click=by_unit>
+                            <button
+                                type="button"
+                                tabindex="-1"
+                                title="Only this unit"
+                                aria-label=format!("unit {unit}")
+                                on:click=by_unit
+                            >
                                 {unit}
                             </button>
                         }
@@ -236,9 +250,15 @@ fn ListRow(place: usize, row: Row, dated: bool) -> impl IntoView {
                 {note} {before} <b>{value}</b>
             </span>
             <span role="gridcell" class="st">
-                <button type="button" tabindex="-1" title="Only such" on:click=by_state>
-                    <StateBadge state latency />
-                </button>
+                // A request without a word says nothing here.
+                {(state != State::Plain)
+                    .then(|| {
+                        view! {
+                            <button type="button" tabindex="-1" title="Only such" on:click=by_state>
+                                <StateBadge state latency />
+                            </button>
+                        }
+                    })}
             </span>
         </div>
     }

@@ -100,6 +100,37 @@ impl Shapes {
     }
 }
 
+/// Some of the entries, by their numbers.
+#[derive(Debug)]
+struct Chosen {
+    flags: Vec<bool>,
+}
+
+impl Chosen {
+    /// Out of so many.
+    fn of(all: usize, chosen: impl Iterator<Item = u32>) -> Self {
+        let mut flags = vec![false; all];
+        chosen.for_each(|entry| flags[entry as usize] = true);
+        Self { flags }
+    }
+
+    fn contains(&self, entry: u32) -> bool {
+        self.flags[entry as usize]
+    }
+
+    fn insert(&mut self, entry: u32) {
+        self.flags[entry as usize] = true;
+    }
+
+    fn is_empty(&self) -> bool {
+        !self.flags.contains(&true)
+    }
+
+    fn iter(&self) -> impl Iterator<Item = u32> {
+        (0..).zip(&self.flags).filter(|(_, chosen)| **chosen).map(|(entry, _)| entry)
+    }
+}
+
 /// So far apart request and response may be.
 const NEAR: usize = 3;
 
@@ -140,15 +171,15 @@ impl Traffic {
     pub(super) fn judge(&mut self, count: usize) -> Vec<Entry> {
         let foreign = self.foreign_protocols[FT12] > 0;
         if self.weak.is_empty() && self.gone.is_empty() && !foreign {
-            let mut block = self.take_out(count, &HashSet::new(), Vec::new());
+            let mut block = self.take_out(count, &Chosen::of(count, std::iter::empty()), Vec::new());
             self.take_turns(&mut block);
             return block;
         }
-        let mut gone: HashSet<u32> = self.gone.drain(..).collect();
+        let mut gone = Chosen::of(self.entries.len(), self.gone.drain(..));
         let later = self.weak.partition_point(|weak| (weak.entry as usize) < count);
         let later = self.weak.split_off(later);
         let mut weak = std::mem::replace(&mut self.weak, later);
-        weak.retain(|weak| !gone.contains(&weak.entry));
+        weak.retain(|weak| !gone.contains(weak.entry));
         // Who types telegrams types few lines that are none.
         let read = count - weak.iter().filter(|weak| !weak.read || weak.facts.slips).count();
         let typed = self.typed && (count <= FEW || read * 2 >= count);
@@ -176,7 +207,7 @@ impl Traffic {
     }
 
     /// Takes the first `count` entries out, but for those that are `gone`, and with `more` in place of some.
-    fn take_out(&mut self, count: usize, gone: &HashSet<u32>, more: Vec<(u32, Vec<Entry>)>) -> Vec<Entry> {
+    fn take_out(&mut self, count: usize, gone: &Chosen, more: Vec<(u32, Vec<Entry>)>) -> Vec<Entry> {
         if gone.is_empty() && self.fresh_pauses.is_empty() {
             self.count_from(count, gone);
             let later = self.entries.split_off(count);
@@ -192,7 +223,7 @@ impl Traffic {
             }
             if let Some((_, entries)) = more.next_if(|(at, _)| *at == index) {
                 block.extend(entries);
-            } else if !gone.contains(&index) {
+            } else if !gone.contains(index) {
                 block.push(entry);
             }
         }
@@ -202,7 +233,7 @@ impl Traffic {
     }
 
     /// The first `count` entries are taken out: others are counted from the first that is left.
-    fn count_from(&mut self, count: usize, gone: &HashSet<u32>) {
+    fn count_from(&mut self, count: usize, gone: &Chosen) {
         let count = count as u32;
         self.gone = gone.iter().filter_map(|index| index.checked_sub(count)).collect();
         self.weak.iter_mut().for_each(|weak| weak.entry -= count);
@@ -213,16 +244,15 @@ impl Traffic {
     }
 
     /// `03 04 00 01 00 02` is a request of unit 3, or the answer to `03 00 01 00 02`: what was asked before tells.
-    fn settle_pdus(&mut self, weak: &[Weak], gone: &HashSet<u32>) {
+    fn settle_pdus(&mut self, weak: &[Weak], gone: &Chosen) {
         for one in weak {
             let index = one.entry as usize;
             let entry = &self.entries[index];
             if !entry.protocol().is(&modbus_unchecked::PROTOCOL) {
                 continue;
             }
-            let before = self.numbered(index.saturating_sub(NEAR), index);
-            let asked = before.into_iter().rfind(|(number, other)| {
-                !gone.contains(number) && other.port == entry.port && other.role != Role::Discarded
+            let asked = self.numbered(index.saturating_sub(NEAR), index).rfind(|(number, other)| {
+                !gone.contains(*number) && other.port == entry.port && other.role != Role::Discarded
             });
             let own = bytes(entry, &self.data);
             let answers = asked.is_some_and(|(_, asked)| {
@@ -257,7 +287,7 @@ impl Traffic {
     }
 
     /// An entry without a proof is none: returns the telegrams without their ends that are in it.
-    fn reject(&mut self, one: &Weak, known: &Known, gone: &mut HashSet<u32>) -> Option<Vec<Entry>> {
+    fn reject(&mut self, one: &Weak, known: &Known, gone: &mut Chosen) -> Option<Vec<Entry>> {
         let whole = self.entries[one.entry as usize];
         let own = bytes(&whole, &self.data);
         let placed = one.facts.bare || one.facts.said || one.facts.dumped;
@@ -411,7 +441,7 @@ impl Traffic {
     }
 
     /// Whether an entry without a proof is a telegram.
-    fn weigh(&self, one: &Weak, known: &Known, gone: &HashSet<u32>) -> bool {
+    fn weigh(&self, one: &Weak, known: &Known, gone: &Chosen) -> bool {
         let entry = &self.entries[one.entry as usize];
         let own = bytes(entry, &self.data);
         let facts = &one.facts;
@@ -460,56 +490,57 @@ impl Traffic {
     }
 
     /// Whether an entry answers one of those just before it, or is answered by one just behind.
-    fn is_in_conversation(&self, one: &Weak, own: &[u8], gone: &HashSet<u32>) -> bool {
+    fn is_in_conversation(&self, one: &Weak, own: &[u8], gone: &Chosen) -> bool {
         let index = one.entry as usize;
         let entry = &self.entries[index];
-        // Columns meet those beside them; the same one may be among them twice.
+        // Columns meet those beside them, and what is proven; the same one may be among them twice.
         let beside = |other: &Entry| {
-            !one.facts.column || (other.line == entry.line && bytes(other, &self.data) != own)
+            let fits = other.line == entry.line || other.verdict == Verdict::Right;
+            !one.facts.column || (fits && bytes(other, &self.data) != own)
         };
-        let near = |other: &&(u32, &Entry)| {
+        let near = |other: &(u32, &Entry)| {
             let same_port = other.1.port == entry.port;
-            !gone.contains(&other.0) && same_port && other.1.role != Role::Discarded && beside(other.1)
+            !gone.contains(other.0) && same_port && other.1.role != Role::Discarded && beside(other.1)
         };
         let before = self.numbered(index.saturating_sub(NEAR), index);
         let behind = self.numbered(index + 1, index + 1 + NEAR);
         let fits = |request: &Entry, response: &Entry| self.answers(request, response, one.cut);
-        before.iter().filter(near).any(|(_, other)| fits(other, entry))
-            || (!one.cut && behind.iter().filter(near).any(|(_, other)| fits(entry, other)))
+        before.clone().filter(near).any(|(_, other)| fits(other, entry))
+            || (!one.cut && behind.clone().filter(near).any(|(_, other)| fits(entry, other)))
             || channel(own).is_some_and(|own| {
-                let others = before.iter().chain(&behind).filter(near);
-                others.into_iter().any(|(_, other)| channel(bytes(other, &self.data)) == Some(own))
+                let mut others = before.chain(behind).filter(near);
+                others.any(|(_, other)| channel(bytes(other, &self.data)) == Some(own))
             })
     }
 
     /// Whether the request whose answer an entry may be is still taken for one.
-    fn is_awaited(&self, one: &Weak, gone: &HashSet<u32>) -> bool {
+    fn is_awaited(&self, one: &Weak, gone: &Chosen) -> bool {
         /// So far away it may be.
         const NEAR: usize = 16;
         let index = one.entry as usize;
         let entry = &self.entries[index];
-        self.numbered(index.saturating_sub(NEAR), index).into_iter().any(|(number, other)| {
-            !gone.contains(&number)
+        self.numbered(index.saturating_sub(NEAR), index).any(|(number, other)| {
+            !gone.contains(number)
                 && (other.port, other.unit) == (entry.port, entry.unit)
                 && other.function == entry.function & !EXCEPTION
         })
     }
 
     /// The entries `from` to `to`, as far as there are so many, with their numbers.
-    fn numbered(&self, from: usize, to: usize) -> Vec<(u32, &Entry)> {
+    fn numbered(&self, from: usize, to: usize) -> impl DoubleEndedIterator<Item = (u32, &Entry)> + Clone {
         let entries = Span::new(from, to.max(from)).of(&self.entries);
-        (from as u32..).zip(entries).collect()
+        entries.iter().enumerate().map(move |(at, entry)| ((from + at) as u32, entry))
     }
 
     /// Whether an entry is a part of a telegram near it, as where a program prints its data again.
-    fn repeats(&self, one: &Weak, gone: &HashSet<u32>) -> bool {
+    fn repeats(&self, one: &Weak, gone: &Chosen) -> bool {
         const NEAR: usize = 8;
         let index = one.entry as usize;
         let own = bytes(&self.entries[index], &self.data);
-        let near = self.numbered(index.saturating_sub(NEAR), index + NEAR);
+        let mut near = self.numbered(index.saturating_sub(NEAR), index + NEAR);
         own.len() > 2
-            && near.into_iter().any(|(number, other)| {
-                let right = other.verdict == Verdict::Right && !gone.contains(&number);
+            && near.any(|(number, other)| {
+                let right = other.verdict == Verdict::Right && !gone.contains(number);
                 right
                     && bytes(other, &self.data)
                         .get(1..)
@@ -550,7 +581,7 @@ impl Traffic {
     }
 
     /// Where the short frames of M-Bus and IEC 60870-5 were seen, frames like those of PROFIBUS are theirs, too.
-    fn take_out_foreign(&mut self, count: usize, gone: &mut HashSet<u32>) {
+    fn take_out_foreign(&mut self, count: usize, gone: &mut Chosen) {
         let own = self.entries[..count].iter().filter(|entry| {
             entry.protocol().is(&profibus_fdl::PROTOCOL)
                 && bytes(entry, &self.data).first() == Some(&profibus_fdl::SD1)
@@ -591,18 +622,18 @@ pub(super) struct Known {
 
 impl Known {
     /// Learns from the next `count` entries, of which these are `weak`.
-    fn learn(&mut self, traffic: &Traffic, count: usize, weak: &[Weak], gone: &HashSet<u32>, typed: bool) {
+    fn learn(&mut self, traffic: &Traffic, count: usize, weak: &[Weak], gone: &Chosen, typed: bool) {
         /// More that begin alike are a log whose lines tell enough.
         const MOST: usize = 16;
         /// And so are so many that begin in other ways.
         const MOST_BEGINNINGS: usize = 1 << 14;
-        let without: HashSet<u32> = weak.iter().map(|weak| weak.entry).collect();
+        let without = Chosen::of(count, weak.iter().map(|weak| weak.entry));
         self.typed = typed;
         self.entries += count;
         self.read += weak.iter().filter(|weak| weak.read).count();
         self.threshold = evidence::threshold(self.read);
         for (index, entry) in (0_u32..).zip(&traffic.entries[..count]) {
-            if without.contains(&index) || gone.contains(&index) || entry.role == Role::Discarded {
+            if without.contains(index) || gone.contains(index) || entry.role == Role::Discarded {
                 continue;
             }
             self.families[family(entry.protocol()) as usize] = true;

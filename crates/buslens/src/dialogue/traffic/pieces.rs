@@ -46,6 +46,9 @@ impl Held {
 /// A telegram in a piece.
 pub(super) type Found = (usize, usize, &'static Protocol, Verdict);
 
+/// So many other pieces may come between two parts of a telegram.
+const OTHERS: usize = 8;
+
 /// A piece longer than this is no single telegram.
 const LONGEST: usize = 300;
 
@@ -163,12 +166,25 @@ impl Traffic {
                 return;
             }
         }
-        // As the standard prints its examples, request and response stand side by side without a check.
-        let fresh = !known.iter().any(|(at, length)| {
-            self.data.get(*at as usize..*at as usize + usize::from(*length)) == Some(bytes)
+        let fresh = |own: &[u8]| {
+            !known.iter().any(|(at, length)| {
+                self.data.get(*at as usize..*at as usize + usize::from(*length)) == Some(own)
+            })
+        };
+        // A write counts what it holds: it is told even where its check is misprinted.
+        let write = (0..bytes.len()).find_map(|at| {
+            let length =
+                self.splitter.rtu_lengths(&bytes[at..])[0].filter(|length| *length <= bytes.len() - at)?;
+            let telegram = &bytes[at..at + length];
+            let reading = evidence::counted_write(telegram, &self.splitter)?;
+            fresh(telegram).then_some((at, telegram, reading))
         });
+        if let Some((at, telegram, reading)) = write {
+            return self.add_weak(index, telegram, at, &row.facts, Some(reading));
+        }
+        // As the standard prints its examples, request and response stand side by side without a check.
         let reading = evidence::reading(bytes, &self.splitter, None)
-            .filter(|reading| fresh && !reading.cut && reading.verdict == Verdict::NoCheck)
+            .filter(|reading| fresh(bytes) && !reading.cut && reading.verdict == Verdict::NoCheck)
             .filter(|_| !row.facts.marked);
         match reading {
             Some(_) => self.add_weak(index, bytes, 0, &row.facts, reading),
@@ -396,20 +412,26 @@ impl Traffic {
 
     /// A telegram came that needs no other piece: what was held is by itself, unless it was a part of this one.
     fn release(&mut self, index: usize, bytes: &[u8]) {
-        let Some(held) = self.lanes[index].held.take() else { return };
-        if is_apart(&held, self.lanes[index].row(0)) {
+        let Some(mut held) = self.lanes[index].held.take() else { return };
+        let row = self.lanes[index].row(0);
+        if is_apart(&held, row) {
             return;
         }
         // A buffer that grows is printed again and again. What lacked only its check was sent by itself.
         if bytes.starts_with(&held.bytes) && !held.complete && held.age == 0 {
-            self.gone.extend(held.entries);
+            return self.gone.extend(held.entries);
+        }
+        // What comes over TCP in parts goes on behind what is sent meanwhile.
+        let last = held.rows.last().map_or(Hint::None, |last| last.hint);
+        let other_side = last != Hint::None && row.hint != Hint::None && last != row.hint;
+        if other_side && held.age < OTHERS && self.begins_over_tcp(&held.bytes[held.from..]) {
+            held.age += 1;
+            self.lanes[index].held = Some(held);
         }
     }
 
     /// Whether a piece goes on with what is held, or is a copy of it.
     fn goes_on(&mut self, index: usize, bytes: &[u8], row: Row) -> bool {
-        /// So many other pieces may come between.
-        const OTHERS: usize = 8;
         let Some(mut held) = self.lanes[index].held.take() else { return false };
         let elsewhere = held.rows.last().is_some_and(|last| last.facts.shape != row.facts.shape);
         if elsewhere && (held.bytes[held.latest..] == *bytes || held.bytes == bytes) {
@@ -506,10 +528,15 @@ impl Traffic {
         let fdl = profibus_fdl::Fdl::length(bytes).is_some_and(|length| length > bytes.len())
             && bytes.len() > 3
             && bytes[0] == profibus_fdl::SD2;
-        let tcp = Place { bytes, last: false, in_step: true, waiting: None };
-        let tcp = bytes.len() > 5 && self.splitter.begins(&modbus_tcp::PROTOCOL, tcp) == Begins::More;
+        let tcp = self.begins_over_tcp(bytes);
         bytes.len() < modbus_rtu::RTU.longest()
             && (rtu || fdl || tcp || (awaited && !self.splitter.knows(function)))
+    }
+
+    /// Whether a telegram of Modbus TCP begins so and is longer.
+    fn begins_over_tcp(&self, bytes: &[u8]) -> bool {
+        let place = Place { bytes, last: false, in_step: true, waiting: None };
+        bytes.len() > 5 && self.splitter.begins(&modbus_tcp::PROTOCOL, place) == Begins::More
     }
 
     /// A piece without a telegram that is beyond doubt: what it most likely is, to be judged when all of the
@@ -528,12 +555,14 @@ impl Traffic {
         let waiting = self.waiting_at(index);
         // Among many parts, more is found by chance.
         let chance = 2 * (1 + breaks.len()).ilog2() as i32;
-        let read = |part: &[u8]| {
+        let read = |from: usize, part: &[u8]| {
             let reading = evidence::reading(part, &self.splitter, waiting)?;
             let apart = part.len() < bytes.len();
-            Some(Reading { bits: reading.bits - if apart { chance } else { 0 }, ..reading })
+            // What goes on in the next row of a list is not cut.
+            let goes_on = reading.cut && facts.listed && from + part.len() < bytes.len();
+            (!goes_on).then_some(Reading { bits: reading.bits - if apart { chance } else { 0 }, ..reading })
         };
-        let best = readings.map(|(from, part)| (from, part, read(part))).reduce(|best, other| {
+        let best = readings.map(|(from, part)| (from, part, read(from, part))).reduce(|best, other| {
             // Numbers of a list that could be hex and decimal are decimal.
             let listed = facts.listed && other.1 == decimal && bits(&other.2) == bits(&best.2);
             if bits(&other.2) > bits(&best.2) || listed { other } else { best }

@@ -2,9 +2,9 @@
 //! bytes. They are read by comparing them, and what comes out is what [`Scan::read`] would make of them.
 //!
 //! A line is a pattern for others where nothing that it says can depend on the values of its numbers: its bytes are
-//! hex, two digits each with the same between them, and end it; what stands before them are the same words and marks;
-//! of the numbers there, the time is read again, and the others are so long that they are no bytes, or bytes whatever
-//! their value.
+//! hex, two digits each with the same before and between them (`01 03`, `0x01, 0x03`, `0103`), and end it; what stands
+//! before them are the same words and marks; of the numbers there, the time is read again, and the others are so long
+//! that they are no bytes, or bytes whatever their value.
 
 use super::{Numbers, Scan, Style};
 use crate::field::Span;
@@ -29,9 +29,10 @@ struct Pattern {
     time: Option<Span>,
     /// The bytes of numbers in it that may be others.
     numbers: Vec<usize>,
-    /// What stands between two bytes: how much, and the first and the last of it.
-    gap: usize,
-    between: [u8; 2],
+    /// The mark that stands before each byte: `0x`.
+    mark: Vec<u8>,
+    /// What stands between two bytes.
+    gap: Vec<u8>,
     /// What stands behind the last one.
     tail: Vec<u8>,
     scan: Scan,
@@ -76,33 +77,41 @@ impl Alike {
 impl Pattern {
     fn of(line: &[u8], scan: &Scan) -> Option<Self> {
         let run = scan.runs.last()?;
-        let plain = run.hex && !run.marked && !run.single && run.style == Style::Separated;
+        let (before, own, tail) = (&line[..run.span.from], run.span.of(line), &line[run.span.to..]);
+        let (mark, gap) = match run.style {
+            Style::Separated if !run.marked && (1..=2).contains(&run.gap) => (0, run.gap),
+            Style::Prefixed if (1..=2).contains(&run.gap) => (2, run.gap),
+            Style::Contiguous if !run.marked && run.tokens == 1 => (0, 0),
+            _ => return None,
+        };
+        let step = mark + 2 + gap;
         let even = run.len() >= SHORTEST
-            && run.tokens == run.len()
+            && (run.tokens == run.len() || gap == 0)
             && run.breaks.is_empty()
-            && (1..=2).contains(&run.gap)
-            && run.span.len() == run.len() * (2 + run.gap) - run.gap;
-        let known = scan.numbers == Some(Numbers::Hex) && scan.slips == 0 && !scan.column && !scan.in_row;
-        if !(plain && even && known) {
+            && run.span.len() + gap == run.len() * step;
+        let hex_only = scan.hex_only();
+        let known = run.hex && !run.single && scan.slips == 0 && !scan.column && !scan.in_row;
+        let prefixed = || own.chunks(step).all(|byte| byte.starts_with(b"0x"));
+        if !(even && known && if run.marked { prefixed() } else { hex_only }) {
             return None;
         }
-        let (before, tail) = (&line[..run.span.from], &line[run.span.to..]);
-        let (gap, between) = (run.gap, [line[run.second_at - run.gap], line[run.second_at - 1]]);
+        let (mark, gap) = (&own[..mark], &own[step - gap..step]);
         let ends = tail.iter().all(|c| c.is_ascii_whitespace() || matches!(c, b']' | b')' | b'}' | b'>'));
         // What could be one number with the first byte.
         let apart = match before {
             [.., a, b':' | b'/'] => !is_digit(*a),
-            [.., c] => !matches!(c, b'-' | b'.' | b'#' | b'"' | b'\'' | b':' | b'/'),
+            [.., c] => !matches!(c, b'-' | b'.' | b'#' | b'"' | b'\''),
             [] => true,
         };
         // A date may go on as a time.
-        let date = scan.time_place.is_some_and(|time| time.to + 4 > run.span.from) && between[0] != b' ';
+        let date =
+            scan.time_place.is_some_and(|time| time.to + 4 > run.span.from) && gap.first() != Some(&b' ');
         let other = scan.runs.iter().rev().nth(1).map(|other| &before[other.span.to..]);
         let joins = other.is_some_and(|between| separator(between).is_some());
         // Others with so many bytes may be shown as characters behind them, and a backslash makes bytes of characters.
         let others = scan.runs.iter().filter(|run| run.len() >= SHORTEST).count() > 1
             || before.iter().any(|c| matches!(*c, HOLE | b'\\'));
-        if !(ends && apart) || date || joins || others || between[0] == b'#' || has_offset(line) {
+        if !(ends && apart) || date || joins || others || gap.first() == Some(&b'#') || has_offset(line) {
             return None;
         }
         let mut head = before.to_vec();
@@ -111,7 +120,8 @@ impl Pattern {
             head[time.from..time.to].iter_mut().filter(|c| is_digit(**c)).for_each(|c| *c = HOLE);
         }
         let mut at = 0;
-        while at < before.len() {
+        // Where decimal numbers are asked for, short ones are some by their value.
+        while hex_only && at < before.len() {
             let count = before[at..].iter().take_while(|c| is_digit(**c)).count();
             let number = Span::new(at, at + count);
             if time.is_none_or(|time| at < time.from || time.to < at) && is_free(before, number) {
@@ -120,19 +130,21 @@ impl Pattern {
             at += count.max(1);
         }
         let numbers = (0..run.first).filter(|at| head[scan.places[*at].from] == HOLE).collect();
-        Some(Self { head, time, numbers, gap, between, tail: tail.to_vec(), scan: scan.clone() })
+        let (mark, gap, tail) = (mark.to_vec(), gap.to_vec(), tail.to_vec());
+        Some(Self { head, time, numbers, mark, gap, tail, scan: scan.clone() })
     }
 
     fn read(&self, line: &[u8], scan: &mut Scan) -> bool {
-        let Self { head, gap, between, tail, .. } = self;
+        let Self { head, mark, gap, tail, .. } = self;
         let Some((before, bytes)) = line.split_at_checked(head.len()) else { return false };
         let other = |(a, b): (&u8, &u8)| if *a == HOLE { !is_digit(*b) } else { a != b };
         if head.iter().zip(before).any(other) || !(tail.is_empty() || bytes.ends_with(tail)) {
             return false;
         }
-        let length = bytes.len() - tail.len();
-        let (step, whole) = (2 + gap, length + gap);
-        if whole % step != 0 || whole / step < SHORTEST {
+        let own = &bytes[..bytes.len() - tail.len()];
+        let (step, whole) = (mark.len() + 2 + gap.len(), own.len() + gap.len());
+        let count = whole / step;
+        if whole % step != 0 || count < SHORTEST || (gap.is_empty() && is_value(own)) {
             return false;
         }
         let time = match self.time {
@@ -143,35 +155,59 @@ impl Pattern {
             None => None,
         };
         scan.like(&self.scan);
-        let Scan { hex, places, runs, .. } = scan;
+        let Scan { hex, decimal, places, runs, .. } = scan;
         let Some(run) = runs.last_mut() else { return false };
-        hex.truncate(run.first);
-        places.truncate(run.first);
-        let digits = |byte: &[u8]| [DIGITS[usize::from(byte[0])], DIGITS[usize::from(byte[1])]];
-        let (count, from, first) = (whole / step, head.len(), run.first);
-        let (mut good, mut padded) = (true, false);
-        let (last, others) = (&bytes[length - 2..], bytes[..length].chunks_exact(step));
-        hex.extend(others.map(|byte| {
-            let [high, low] = digits(byte);
-            good &= ((high | low) < 16) & (byte[2] == between[0]) & (byte[step - 1] == between[1]);
+        let (from, first) = (head.len(), run.first);
+        hex.truncate(first);
+        decimal.truncate(first);
+        places.truncate(first);
+        let (mut all, mut padded, mut same) = (0, false, true);
+        let mut byte = |at: &[u8]| {
+            let [high, low] = [DIGITS[usize::from(at[0])], DIGITS[usize::from(at[1])]];
+            all |= high | low;
             padded |= high == 0;
             high << 4 | low
-        }));
-        let [high, low] = digits(last);
-        if !good || (high | low) > 15 {
+        };
+        let (others, last) = own.split_at(own.len() - 2);
+        match (gap.first(), gap.last()) {
+            // The first and the last sign of what stands between tell all of it.
+            (Some(a), Some(b)) if mark.is_empty() => hex.extend(others.chunks_exact(step).map(|at| {
+                same &= (at[2] == *a) & (at[step - 1] == *b);
+                byte(at)
+            })),
+            (None, _) => hex.extend(others.chunks_exact(2).map(&mut byte)),
+            _ => hex.extend(others.chunks_exact(step).map(|at| {
+                same &= at.starts_with(mark) && at.ends_with(gap);
+                byte(&at[mark.len()..])
+            })),
+        }
+        hex.push(byte(last));
+        if !same || !others.ends_with(mark) || all > 15 {
             return false;
         }
-        hex.push(high << 4 | low);
-        places.extend((0..count).map(|nth| Span::new(from + nth * step, from + nth * step + 2)));
-        (run.end, run.last, run.span.to) = (first + count, first + count - 1, from + length);
-        (run.tokens, run.since, run.padded) = (count, count, padded | (high == 0));
+        let width = mark.len() + 2;
+        places.extend((0..count).map(|nth| Span::new(from + nth * step, from + nth * step + width)));
+        (run.end, run.span.to) = (first + count, from + own.len());
+        if !gap.is_empty() {
+            (run.tokens, run.since, run.last) = (count, count, first + count - 1);
+            run.padded = padded && !run.marked;
+        }
+        if self.scan.numbers != Some(Numbers::Hex) {
+            // A byte with a mark is the same in a list of decimal numbers.
+            decimal.extend_from_slice(&hex[first..]);
+        }
         for at in &self.numbers {
-            let [high, low] = digits(places[*at].of(line));
-            hex[*at] = high << 4 | low;
+            let digits = places[*at].of(line);
+            hex[*at] = DIGITS[usize::from(digits[0])] << 4 | DIGITS[usize::from(digits[1])];
         }
         scan.time = time;
         true
     }
+}
+
+/// Whether hex digits are a word or the bits of a number, by their value.
+fn is_value(digits: &[u8]) -> bool {
+    !digits.iter().any(|c| is_digit(*c)) || is_bits(digits)
 }
 
 /// Whether a number says the same of its line whatever its value is.
@@ -196,4 +232,112 @@ fn is_free(line: &[u8], number: Span) -> bool {
         && !goes_on
         && !went_on
         && behind.first() != Some(&b'#')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::text::line::Start;
+
+    /// All that a scan tells of its line.
+    fn told(scan: &Scan) -> String {
+        let Scan {
+            hex, decimal, places, runs, breaks, time, words, slips, column, sender, both, port, ..
+        } = scan;
+        let (telegrams, leftovers) = (scan.of_telegrams, scan.of_leftovers);
+        format!(
+            "{hex:?} {decimal:?} {places:?} {runs:?} {breaks:?} {time:?} {words} {slips} {column} {sender:?} {both} \
+             {port:?} {telegrams} {leftovers}"
+        )
+    }
+
+    /// Whether `second` is read by comparing it with `first`; if so, all is as if it were read by itself.
+    fn is_like(first: &str, second: &str, numbers: Option<Numbers>) -> bool {
+        let (mut alike, mut scan) = (Alike::default(), Scan::default());
+        scan.read(first.as_bytes(), Start::default(), numbers);
+        alike.learn(first.as_bytes(), &scan);
+        let like = alike.read(second.as_bytes(), &mut scan);
+        if like {
+            let mut alone = Scan::default();
+            alone.read(second.as_bytes(), Start::default(), numbers);
+            assert_eq!(told(&scan), told(&alone), "{first} {second}");
+        }
+        like
+    }
+
+    #[test]
+    fn lines_that_differ_in_their_numbers() {
+        for (first, second) in [
+            ("01 03 00 C8 00 03 84 35", "11 10 0F FF 00"),
+            ("TX: 01 03 00 C8 00 03", "TX: FF FF FF FF FF FF FF FF FF"),
+            ("09:30:05.123 TX: 01 03 00 C8 00 03", "23:59:59.999 TX: 11 10 0F FF 00"),
+            ("2026-03-02 09:30:05 [a] 01-03-00-c8-00-03", "2027-12-31 23:59:59 [a] 81-03-1f-c8-00"),
+            ("000017-Tx:01 03 00 C8 00 03 84 35", "000958-Tx:81 03 02 C0 F1"),
+            ("12345 rx 01  03  00  C8  00", "99999 rx 21  03  1A  C8  00"),
+            ("[01][03][00][C8][00][03]", "[81][03][1F][C8][00][03][04]"),
+            ("<01><03><00><C8><00><03>", "<81><03><1F><C8><00><03><04>"),
+            (">>> 01:03:00:C8:00:03  ", ">>> 10:15:20:30:40:50:16  "),
+            (
+                "10.0.0.7:49152 -> 10.0.0.1:502 01 03 00 C8 00",
+                "10.0.0.7:49152 -> 10.0.0.1:502 11 03 10 C8 00",
+            ),
+            (":010300C800032D", ":8103020F1234567890"),
+            ("Tx=010300c800038435", "Tx=123456789012"),
+            ("Raw >>> {0x01, 0x03, 0x00, 0xC8, 0x00}", "Raw >>> {0x11, 0x13, 0x20, 0xFF, 0x00, 0x01}"),
+        ] {
+            assert!(is_like(first, second, Some(Numbers::Hex)), "{first}");
+        }
+        let marked = "rx 0x01 0x03 0x00 0xC8 0x00";
+        assert!(is_like(marked, &marked.replace("C8", "1F"), None));
+        // Milliseconds since 1970.
+        assert!(is_like(
+            "1775000000001 tx 01 03 00 C8 00",
+            "1775999999999 tx 01 03 00 C8 00",
+            Some(Numbers::Hex)
+        ));
+    }
+
+    #[test]
+    fn lines_whose_numbers_say_more() {
+        for (first, second) in [
+            // Other words, marks, and lengths.
+            ("TX: 01 03 00 C8 00 03", "RX: 01 03 00 C8 00 03"),
+            ("TX: 01 03 00 C8 00 03", "TX:  01 03 00 C8 00 03"),
+            ("TX: 01 03 00 C8 00 03", "TX: 01 03 00-C8 00 03"),
+            ("TX: 01 03 00 C8 00 03", "TX: 01 03 00 C8 00 03 (6)"),
+            ("TX: 01 03 00 C8 00 03", "TX: 01 03 00 C8 00 3"),
+            ("TX: 01 03 00 C8 00 03", "TX: 01 03 00 C8 00 G3"),
+            ("TX: 01 03 00 C8 00 03", "TX: 01 03 00 C8"),
+            ("TX 0x01 0x03 0x00 0xC8 0x00", "TX 0x01 0x03 0x00 0xC8 1x00"),
+            ("TX 0x01 0x03 0x00 0xC8 0x00", "TX 0x01 0x03 0x00 0xC8,0x00"),
+            // No time.
+            ("09:30:05 TX 01 03 00 C8 00", "25:30:05 TX 01 03 00 C8 00"),
+            ("2026-03-02 TX 01 03 00 C8 00", "2026-13-02 TX 01 03 00 C8 00"),
+            // A word, and bits.
+            ("Tx=010300c80003", "Tx=abcdefabcdef"),
+            ("Tx=010300c800038435", "Tx=0101010101010101"),
+            // A counter that could be bytes of the telegram, an address, an offset.
+            ("5 01 03 00 C8 00", "6 11 03 00 C8 00"),
+            ("COM 12: 01 03 00 C8 00", "COM 13: 01 03 00 C8 00"),
+            ("0010: 01 03 00 C8 00", "0020: 01 03 00 C8 00"),
+            ("x -01 03 00 C8 00", "x -16 03 00 C8 00"),
+            (r"\x01 01 03 00 C8 00", r"\x02 01 03 00 C8 00"),
+        ] {
+            assert!(!is_like(first, second, Some(Numbers::Hex)), "{first} {second}");
+        }
+        assert!(!is_like("01 03 00 C8 00", "11 03 00 C8 00", None), "they could be decimal");
+    }
+
+    #[test]
+    fn few_lines_are_kept_where_none_is_like_another() {
+        let mut alike = Alike::default();
+        let mut scan = Scan::default();
+        for n in 0..400 {
+            let line = format!("{} 01 03 00 C8 00", "x".repeat(n + 1));
+            scan.read(line.as_bytes(), Start::default(), Some(Numbers::Hex));
+            alike.learn(line.as_bytes(), &scan);
+        }
+        assert!(alike.patterns.len() <= 8);
+        assert!(alike.patterns.iter().all(|pattern| pattern.head.len() > 60), "the oldest ones are replaced");
+    }
 }

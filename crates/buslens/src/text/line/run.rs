@@ -100,6 +100,11 @@ impl Run {
         self.separator == b','
     }
 
+    /// Whether a mark stands between its bytes.
+    pub(super) fn is_parted_by(&self, mark: u8) -> bool {
+        self.separator_or(0) == mark
+    }
+
     /// What stands between its bytes, `otherwise` where it has only one number so far.
     fn separator_or(&self, otherwise: u8) -> u8 {
         if self.since < 2 { otherwise } else { self.separator }

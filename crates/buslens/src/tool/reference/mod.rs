@@ -49,6 +49,13 @@ impl Book {
         }
     }
 
+    /// Its label without the maker, for narrow places.
+    pub fn short(self) -> &'static str {
+        let label = self.label();
+        let makers = ["KEB COMBIVERT ", "Endress+Hauser "];
+        makers.iter().find_map(|maker| label.strip_prefix(maker)).unwrap_or(label)
+    }
+
     pub fn of(key: &str) -> Option<Self> {
         Self::all().into_iter().find(|book| book.key() == key)
     }

@@ -40,6 +40,8 @@ pub struct Layout {
     pub direction: Direction,
     pub note: &'static str,
     pub rows: Vec<Row>,
+    /// What its first byte is, and which bits of that count, where that tells it from others.
+    begins: Option<(u8, u8)>,
 }
 
 impl Topic {
@@ -84,12 +86,13 @@ impl Topic {
             Subject::Service(kinds) => kinds
                 .iter()
                 .map(|kind| {
-                    let mut frame = Fdl::new(kind, &profibus::Settings::default());
+                    // What is around it is the same for all: frames have pages of their own.
+                    let mut body = (kind.new)(&profibus::Settings::default());
                     Layout::new(
                         direction_name(kind.direction),
                         kind.direction,
                         kind.spec.note,
-                        guide(&mut frame),
+                        guide(body.as_mut()),
                     )
                 })
                 .collect(),
@@ -139,8 +142,13 @@ impl Topic {
 }
 
 impl Layout {
+    /// Whether `bytes`, a telegram of its topic, can be laid out so.
+    pub fn fits(&self, bytes: &[u8]) -> bool {
+        self.begins.is_none_or(|(value, mask)| bytes.first().is_some_and(|first| (first ^ value) & mask == 0))
+    }
+
     fn new(title: &str, direction: Direction, note: &'static str, rows: Vec<Row>) -> Self {
-        Self { title: title.to_owned(), direction, note, rows }
+        Self { title: title.to_owned(), direction, note, rows, begins: None }
     }
 }
 
@@ -175,7 +183,7 @@ fn other_layouts(carrier: &Protocol, kinds: &[&'static modbus::Kind]) -> Vec<Lay
     for (dialect, kind) in others.filter(|(_, kind)| kinds.iter().any(|own| own.function == kind.function)) {
         let Some(rows) = carried(carrier, kind.pdu(dialect)) else { continue };
         let title = format!("{}, where set so: {}", direction_name(kind.direction), dialect.label);
-        layouts.push(Layout { title, direction: kind.direction, note: dialect.note, rows });
+        layouts.push(Layout::new(&title, kind.direction, dialect.note, rows));
     }
     layouts
 }
@@ -207,7 +215,10 @@ fn channel_layouts() -> Vec<Layout> {
     .into_iter()
     .map(|(title, note, mut channel)| {
         let direction = if title.contains("request") { Direction::Request } else { Direction::Response };
-        Layout::new(title, direction, note, guide(&mut channel))
+        // Service and error tell; of what is asked for, the length as well.
+        let mask = if direction == Direction::Request { 0xB3 } else { 0x83 };
+        let begins = Some((channel.control, mask));
+        Layout { begins, ..Layout::new(title, direction, note, guide(&mut channel)) }
     })
     .collect()
 }
