@@ -343,6 +343,13 @@ impl LogState {
                     (*old, *before) = (done, telegrams);
                 }
             }),
+            Answer::Growing { overview, lanes, list } => {
+                let first = self.overview.with_untracked(Option::is_none);
+                self.overview.set(Some(Arc::from(overview)));
+                self.lanes.set(lanes);
+                if first { self.hear(Answer::List(list), None) } else { self.grown(list) }
+            }
+            Answer::Grown(list) => self.grown(list),
             Answer::Refused(why) => {
                 self.toasts.announce(why.clone());
                 self.forget();
@@ -423,6 +430,18 @@ impl LogState {
                     file::save_blob(kind.file().0, &blob);
                 }
             }
+        }
+    }
+
+    /// The list has more telegrams at its end.
+    fn grown(&self, list: usize) {
+        let before = self.total.get_untracked();
+        self.total.set(list);
+        let (from, known) = self.rows.with_untracked(|(from, rows)| (*from, rows.len()));
+        // The end was in sight.
+        if from + known >= before {
+            let state = *self;
+            Timeout::new(0, move || state.ask(Request::Rows { from, count: ASKED })).forget();
         }
     }
 
