@@ -269,7 +269,7 @@ fn fill(task: &Task, telegram: &Telegram, label: &str, width: usize) -> Option<S
         "Length" => hex(telegram.bytes.len() as i64 - 6),
         "Status" => hex(0x80),
         "Value" => {
-            let text = question.replace(" =", " ").replace(',', " ").replace(':', " ");
+            let text = question.replace(" =", " ").replace([',', ':'], " ");
             let float = text.split_whitespace().find(|word| word.trim_end_matches('.').contains('.'))?;
             hex(parse_float(float.trim_end_matches('.'), 4)? as i64)
         }

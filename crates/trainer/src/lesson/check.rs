@@ -75,7 +75,7 @@ impl Step {
         }
         for statement in &self.statements {
             match self.says(statement, &report) {
-                Ok(values) if values.iter().any(|value| *value == statement.value) => {}
+                Ok(values) if values.contains(&statement.value) => {}
                 Ok(values) => {
                     let said =
                         format!("“{}” is {}, not {}.", statement.name, values.join(" or "), statement.value);

@@ -292,7 +292,7 @@ impl List {
                     }
                 }
             };
-            self.places.push(place as u8);
+            self.places.push(place);
         }
         true
     }
@@ -338,7 +338,7 @@ mod tests {
     fn what_repeats_and_grows_takes_little_room() {
         let mut packed = Packed::default();
         // Eight kinds that lie far apart, a place, a time.
-        (0..100_000_u64).for_each(|n| packed.push([n % 8 << 50 | n % 3, n * 50, n * 10_000]));
+        (0..100_000_u64).for_each(|n| packed.push([((n % 8) << 50) | (n % 3), n * 50, n * 10_000]));
         let each = packed.memory() as f64 / 100_000.0;
         assert!(each < 7.0, "{each} bytes a row");
     }
