@@ -92,13 +92,14 @@ impl<S: Source> Reader<S> {
     /// The file ends, or is not read any further.
     pub fn finish(&mut self) -> Vec<Answer> {
         self.log.finish();
+        let shown = self.known > 0;
+        self.grow();
         let mut answers = self.opening();
         // What the page shows of the list stays where it is.
-        if self.known > 0 && matches!(self.chosen, Chosen::All(_)) {
+        if shown && matches!(self.chosen, Chosen::All(_)) {
             answers.pop();
             answers.push(Answer::Grown(self.telegrams()));
         }
-        self.grow();
         answers
     }
 
