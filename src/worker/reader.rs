@@ -79,14 +79,20 @@ impl<S: Source> Reader<S> {
     }
 
     /// What is said of a log while it is read: at once, and whenever there is twice as much to see.
-    pub fn growing(&mut self) -> Option<Answer> {
+    pub fn growing(&mut self) -> Vec<Answer> {
         if self.telegrams() < (2 * self.known).max(1) {
-            return None;
+            return Vec::new();
         }
         self.log.look();
+        let shown = self.known > 0;
         self.grow();
         let (overview, lanes) = (self.log.overview(), self.log.lanes(None, STRETCHES));
-        Some(Answer::Growing { overview: Box::new(overview), lanes, list: self.chosen.len() })
+        let list = self.chosen.len();
+        vec![
+            Answer::Growing(Box::new(overview)),
+            Answer::Lanes(lanes),
+            if shown { Answer::Grown(list) } else { Answer::List(list) },
+        ]
     }
 
     /// The file ends, or is not read any further.
