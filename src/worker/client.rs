@@ -48,6 +48,8 @@ struct Running {
     waiting: Option<Vec<JsValue>>,
     /// It holds the log, or reads it.
     reads: bool,
+    /// It is not through with the file: it says something with each part of it.
+    in_parts: bool,
     /// Ends when it has been silent for too long.
     watch: Option<Timeout>,
     /// They live as long as it does.
@@ -206,6 +208,7 @@ impl Client {
             worker,
             waiting: Some(Vec::new()),
             reads: false,
+            in_parts: false,
             watch: None,
             _hear: hear,
             _fail: fail,
@@ -215,7 +218,12 @@ impl Client {
     fn heard(&self, event: &MessageEvent) {
         let Some((answer, beside)) = mail::read::<Answer>(&event.data()) else { return self.failed() };
         if let Some(running) = &mut *self.worker.borrow_mut() {
-            running.watch = matches!(answer, Answer::Progress { .. }).then(|| self.watch(PATIENCE));
+            match answer {
+                Answer::Progress { .. } => running.in_parts = true,
+                Answer::Ready(_) | Answer::Refused(_) => running.in_parts = false,
+                _ => {}
+            }
+            running.watch = running.in_parts.then(|| self.watch(PATIENCE));
             if matches!(answer, Answer::Hello) {
                 running.watch = Some(self.watch(PATIENCE));
                 for mail in running.waiting.take().unwrap_or_default() {

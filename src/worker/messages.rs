@@ -208,12 +208,7 @@ pub enum Answer {
         telegrams: usize,
     },
     /// What is read so far, of which nothing changes any more. It is told again when there is twice as much.
-    Growing {
-        overview: Box<Overview>,
-        lanes: Lanes,
-        /// How many telegrams the list has.
-        list: usize,
-    },
+    Growing(Box<Overview>),
     /// The list has so many telegrams now: those that it had, and others behind them.
     Grown(usize),
     /// Why the file is not read.

@@ -79,26 +79,33 @@ impl<S: Source> Reader<S> {
     }
 
     /// What is said of a log while it is read: at once, and whenever there is twice as much to see.
-    pub fn growing(&mut self) -> Option<Answer> {
+    pub fn growing(&mut self) -> Vec<Answer> {
         if self.telegrams() < (2 * self.known).max(1) {
-            return None;
+            return Vec::new();
         }
         self.log.look();
+        let shown = self.known > 0;
         self.grow();
         let (overview, lanes) = (self.log.overview(), self.log.lanes(None, STRETCHES));
-        Some(Answer::Growing { overview: Box::new(overview), lanes, list: self.chosen.len() })
+        let list = self.chosen.len();
+        vec![
+            Answer::Growing(Box::new(overview)),
+            Answer::Lanes(lanes),
+            if shown { Answer::Grown(list) } else { Answer::List(list) },
+        ]
     }
 
     /// The file ends, or is not read any further.
     pub fn finish(&mut self) -> Vec<Answer> {
         self.log.finish();
+        let shown = self.known > 0;
+        self.grow();
         let mut answers = self.opening();
         // What the page shows of the list stays where it is.
-        if self.known > 0 && matches!(self.chosen, Chosen::All(_)) {
+        if shown && matches!(self.chosen, Chosen::All(_)) {
             answers.pop();
             answers.push(Answer::Grown(self.telegrams()));
         }
-        self.grow();
         answers
     }
 

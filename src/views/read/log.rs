@@ -343,12 +343,7 @@ impl LogState {
                     (*old, *before) = (done, telegrams);
                 }
             }),
-            Answer::Growing { overview, lanes, list } => {
-                let first = self.overview.with_untracked(Option::is_none);
-                self.overview.set(Some(Arc::from(overview)));
-                self.lanes.set(lanes);
-                if first { self.hear(Answer::List(list), None) } else { self.grown(list) }
-            }
+            Answer::Growing(overview) => self.overview.set(Some(Arc::from(overview))),
             Answer::Grown(list) => self.grown(list),
             Answer::Refused(why) => {
                 self.toasts.announce(why.clone());

@@ -392,3 +392,12 @@ fn findings_name_what_is_behind_errors() {
     let said = read(&text).findings(&text.as_bytes())[0].text.to_string();
     assert!(said.starts_with("Unit 5: 5 answers took 424 ms or more, usually 20 ms."), "{said}");
 }
+
+/// The last telegram waits for what may go on with it; the lines behind it do not wait with it.
+#[test]
+fn many_lines_behind_the_last_telegram_are_listed() {
+    let text = "TX: 01 03 00 C8 00 03 84 35\n".to_owned() + &"nothing of interest\n".repeat(100_000);
+    let log = read(&text);
+    assert_eq!((log.entries().len(), log.unread().len()), (1, 100_000));
+    assert!(log.unread().iter().map(|(line, _)| line).eq(2..=100_001));
+}

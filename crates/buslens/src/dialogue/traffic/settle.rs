@@ -22,8 +22,14 @@ impl Traffic {
             self.settle(self.end_of_block());
         }
         if self.passed.len() >= 2 * BLOCK {
-            self.settle(self.entries.partition_point(|entry| entry.line < line));
-            self.close_lines(line);
+            match line {
+                // What has no lines has none to list: so many show that something else is there.
+                0 => self.passed.truncate(BLOCK),
+                _ => {
+                    self.settle(self.entries.partition_point(|entry| entry.line < line));
+                    self.close_lines(line);
+                }
+            }
         }
     }
 
@@ -65,9 +71,11 @@ impl Traffic {
         let kept = self.entries.first().map_or(self.data.len(), |entry| entry.at as usize);
         self.data.drain(..kept);
         self.entries.iter_mut().for_each(|entry| entry.at -= kept as u64);
-        let next = self.entries.first().map_or(0, |entry| entry.line);
         self.leave_lines_of(&block);
-        self.close_lines(next);
+        // Others can be of what waits for its end.
+        let in_hand = self.lanes.iter().filter_map(|lane| lane.rows.first()).map(|row| row.line);
+        let next = self.entries.first().map(|entry| entry.line).into_iter().chain(in_hand).min();
+        self.close_lines(next.unwrap_or(0));
     }
 
     /// Lines that have a telegram were not passed.
@@ -79,10 +87,8 @@ impl Traffic {
         self.passed.retain(|(line, _)| !lines.contains(line));
     }
 
-    /// No telegram will be found in lines before this one, but for those that are in hand.
+    /// No telegram will be found in lines before this one.
     fn close_lines(&mut self, line: u32) {
-        let in_hand = self.lanes.iter().filter_map(|lane| lane.rows.first()).map(|row| row.line).min();
-        let line = in_hand.map_or(line, |in_hand| in_hand.min(line));
         self.passed.sort_unstable();
         self.passed.dedup();
         let closed = self.passed.partition_point(|(passed, _)| *passed < line);
