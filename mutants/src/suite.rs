@@ -144,6 +144,7 @@ impl Suite {
         if let Some(error) = errors.first() {
             return Err(format!("The tests do not compile: {:?}: {}", error.places, error.message));
         }
+        let binaries = binaries.iter().map(|binary| kept(folder, binary)).collect::<Result<_>>()?;
         let mut suite =
             Self { folder: folder.to_owned(), binaries, tests: Vec::new(), met: HashMap::new(), switched };
         suite.survey(tests)?;
@@ -228,6 +229,13 @@ impl Suite {
         command.env(name, value);
         wait(command.spawn().ok()?, limit)
     }
+}
+
+/// A program in a place of its own: where another part is built, Cargo gives its programs the same names.
+fn kept(folder: &Path, binary: &Path) -> Result<PathBuf> {
+    let copy = folder.join(binary.file_name().unwrap_or_default());
+    fs::copy(binary, &copy).map_err(|error| format!("{}: {error}.", copy.display()))?;
+    Ok(copy)
 }
 
 /// No test takes longer.

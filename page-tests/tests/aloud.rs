@@ -79,7 +79,7 @@ async fn telegrams_are_read_aloud() -> Result {
     )
     .await?;
     page.value("document.querySelector('.fields [tabindex=\"0\"]').focus()").await?;
-    pressed(&page, &mut said, &[("field, Down", Key::Down), ("Down", Key::Down), ("End", Key::End)]).await?;
+    pressed(&page, &mut said, &[("field, Down", Key::Down), ("End", Key::End), ("Up", Key::Up)]).await?;
     page.value("document.querySelector('.editor textarea').focus()").await?;
     page.fill(".editor textarea", "01 03 00 C8 00 03 84 35").await?;
     said.push_str(&format!("typed: {}\n", page.told().await?));

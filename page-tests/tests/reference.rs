@@ -25,7 +25,7 @@ async fn the_telegrams_of_the_manuals_open_in_read() -> Result {
     page.picture("gallery-desktop-light").await?;
     page.click(".samples li:nth-child(2) a").await?;
     // A response, behind its request, with its device.
-    page.until(".lead h2", "Unit 1 confirms the write to Universal channel 6.").await?;
+    page.until(".lead h2", "Unit 1 confirms the write").await?;
     assert_eq!(page.shown().await?, "01 10 00 D7 00 03 30 30");
     page.driver.back().await?;
     page.until(".gallery h3", "Telegrams of the manuals").await?;

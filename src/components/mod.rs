@@ -25,3 +25,4 @@ pub mod state_badge;
 pub mod structure;
 pub mod telegram;
 pub mod toast;
+pub mod wide_table;

@@ -4,6 +4,7 @@ use leptos::prelude::*;
 
 use super::byte_strip::Lights;
 use super::telegram::Shown;
+use super::wide_table::WideTable;
 use buslens::field::{Order, Span};
 use buslens::tool::{Kind, View, guess, views};
 
@@ -88,16 +89,14 @@ fn Wide(bits: usize, views: Vec<View>, guess: Option<(Kind, Order)>) -> impl Int
         })
         .collect();
     view! {
-        <div class="wide" tabindex="0" role="region" aria-label=format!("As {bits} bits")>
-            <table class="table interpretations">
-                <thead>
-                    <tr>
-                        <th scope="col">{format!("{bits} bits")}</th>
-                        {kinds}
-                    </tr>
-                </thead>
-                <tbody>{rows}</tbody>
-            </table>
-        </div>
+        <WideTable label=format!("As {bits} bits") class="interpretations">
+            <thead>
+                <tr>
+                    <th scope="col">{format!("{bits} bits")}</th>
+                    {kinds}
+                </tr>
+            </thead>
+            <tbody>{rows}</tbody>
+        </WideTable>
     }
 }

@@ -207,6 +207,15 @@ pub enum Answer {
         done: f64,
         telegrams: usize,
     },
+    /// What is read so far, of which nothing changes any more. It is told again when there is twice as much.
+    Growing {
+        overview: Box<Overview>,
+        lanes: Lanes,
+        /// How many telegrams the list has.
+        list: usize,
+    },
+    /// The list has so many telegrams now: those that it had, and others behind them.
+    Grown(usize),
     /// Why the file is not read.
     Refused(String),
     /// Why nobody reads it any more; it can be opened again. The worker itself cannot say that.

@@ -2,11 +2,12 @@
 //! are read where the page is.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use super::messages::{Answer, Choice, Export, Found, Passed, Proposed, Request, Shown, Value, Which};
-use buslens::field::{Span, hex};
+use buslens::field::hex;
 use buslens::tool::digest::Digest;
-use buslens::tool::log::{CaptureFile, Entry, Finding, Hidden, Log, Role, Source};
+use buslens::tool::log::{Bytes, CaptureFile, Entry, Filter, Finding, Hidden, Log, Role, Source};
 use buslens::tool::{annotated, csv, json};
 
 /// How many stretches the timeline has.
@@ -18,15 +19,94 @@ pub struct Reader<S> {
     source: S,
     size: u64,
     findings: Vec<Finding>,
-    /// The indices of the telegrams that the list has.
-    chosen: Vec<u32>,
+    chosen: Chosen,
+    /// How many telegrams the page knows of, while the log is read.
+    known: usize,
+}
+
+/// The telegrams that the list has.
+enum Chosen {
+    /// So many, the first ones.
+    All(usize),
+    /// Those with these indices.
+    Some(Vec<u32>),
+}
+
+impl Chosen {
+    fn len(&self) -> usize {
+        match self {
+            Self::All(count) => *count,
+            Self::Some(indices) => indices.len(),
+        }
+    }
+
+    /// The index of the telegram at a place of the list.
+    fn at(&self, place: usize) -> Option<usize> {
+        match self {
+            Self::All(count) => (place < *count).then_some(place),
+            Self::Some(indices) => indices.get(place).map(|index| *index as usize),
+        }
+    }
+
+    /// The place of a telegram in the list.
+    fn place(&self, index: usize) -> Option<usize> {
+        match self {
+            Self::All(count) => (index < *count).then_some(index),
+            Self::Some(indices) => indices.binary_search(&(index as u32)).ok(),
+        }
+    }
+
+    fn indices(&self, places: Range<usize>) -> Vec<u32> {
+        places.map_while(|place| self.at(place)).map(|index| index as u32).collect()
+    }
 }
 
 impl<S: Source> Reader<S> {
     /// A log that is read from `source`, which has `size` bytes.
     pub fn new(log: Log, source: S, size: u64) -> Self {
-        let chosen = (0..log.entries().len() as u32).collect();
-        Self { log, source, size, findings: Vec::new(), chosen }
+        let chosen = Chosen::All(log.entries().len());
+        Self { log, source, size, findings: Vec::new(), chosen, known: 0 }
+    }
+
+    /// Takes the next part of the file; `false` if no more can be kept.
+    pub fn take(&mut self, part: &[u8]) -> bool {
+        self.log.push(part)
+    }
+
+    /// How many telegrams are read.
+    pub fn telegrams(&self) -> usize {
+        self.log.entries().len()
+    }
+
+    /// What is said of a log while it is read: at once, and whenever there is twice as much to see.
+    pub fn growing(&mut self) -> Option<Answer> {
+        if self.telegrams() < (2 * self.known).max(1) {
+            return None;
+        }
+        self.log.look();
+        self.grow();
+        let (overview, lanes) = (self.log.overview(), self.log.lanes(None, STRETCHES));
+        Some(Answer::Growing { overview: Box::new(overview), lanes, list: self.chosen.len() })
+    }
+
+    /// The file ends, or is not read any further.
+    pub fn finish(&mut self) -> Vec<Answer> {
+        self.log.finish();
+        let mut answers = self.opening();
+        // What the page shows of the list stays where it is.
+        if self.known > 0 && matches!(self.chosen, Chosen::All(_)) {
+            answers.pop();
+            answers.push(Answer::Grown(self.telegrams()));
+        }
+        self.grow();
+        answers
+    }
+
+    fn grow(&mut self) {
+        self.known = self.telegrams();
+        if let Chosen::All(count) = &mut self.chosen {
+            *count = self.known;
+        }
     }
 
     /// What is said of a log when it is read.
@@ -64,8 +144,8 @@ impl<S: Source> Reader<S> {
             Request::Rows { from, count } => {
                 /// More do not fit on any screen.
                 const MOST: usize = 200;
-                let rows = Span::new(*from, from.saturating_add((*count).min(MOST))).of(&self.chosen);
-                vec![Answer::Rows { from: *from, rows: self.log.rows(&self.source, rows) }]
+                let rows = self.chosen.indices(*from..from.saturating_add((*count).min(MOST)));
+                vec![Answer::Rows { from: *from, rows: self.log.rows(&self.source, &rows) }]
             }
             Request::Show(which) => vec![self.show(*which)],
             Request::Series { unit, address } => vec![self.series(*unit, *address)],
@@ -78,38 +158,43 @@ impl<S: Source> Reader<S> {
     }
 
     fn choose(&mut self, choice: &Choice) {
-        self.chosen = self.log.filtered(&choice.filter, &self.source, self.size);
-        if let Some(finding) = choice.finding.and_then(|index| self.findings.get(index)) {
-            self.chosen.retain(|index| finding.evidence.binary_search(index).is_ok());
+        let finding = choice.finding.and_then(|index| self.findings.get(index));
+        if finding.is_none() && choice.filter == Filter::default() {
+            self.chosen = Chosen::All(self.telegrams());
+            return;
         }
+        let mut indices = self.log.filtered(&choice.filter, &self.source, self.size);
+        if let Some(finding) = finding {
+            indices.retain(|index| finding.evidence.binary_search(index).is_ok());
+        }
+        self.chosen = Chosen::Some(indices);
     }
 
     fn show(&self, which: Which) -> Answer {
         let entries = self.log.entries();
-        let wrong = |place: &usize| self.log.state(&entries[self.chosen[*place] as usize]).is_wrong();
+        let at = |place: usize| self.chosen.at(place);
+        let wrong = |index: &usize| self.log.state(&self.log.entry(*index)).is_wrong();
         let index = match which {
-            Which::At(place) => self.chosen.get(place).map(|index| *index as usize),
+            Which::At(place) => at(place),
             Which::Index(index) => Some(index).filter(|index| *index < entries.len()),
-            Which::Wrong { from, forwards: true } => {
-                (from + 1..self.chosen.len()).find(wrong).map(|place| self.chosen[place] as usize)
-            }
+            Which::Wrong { from, forwards: true } => (from + 1..self.chosen.len()).filter_map(at).find(wrong),
             Which::Wrong { from, forwards: false } => {
-                (0..from.min(self.chosen.len())).rev().find(wrong).map(|place| self.chosen[place] as usize)
+                (0..from.min(self.chosen.len())).rev().filter_map(at).find(wrong)
             }
         };
         let Some(index) = index else { return Answer::NothingThere };
-        let entry = &entries[index];
+        let entry = &self.log.entry(index);
         let Some(row) = self.log.rows(&self.source, &[index as u32]).pop() else {
             return Answer::NothingThere;
         };
         let discarded = entry.role == Role::Discarded;
         Answer::Shown(Box::new(Shown {
-            place: self.chosen.binary_search(&(index as u32)).ok(),
+            place: self.chosen.place(index),
             row,
             line: entry.line,
             about: about(entry).to_owned(),
             partner: entry.partner(),
-            discarded: discarded.then(|| self.log.bytes(entry).to_vec()),
+            discarded: discarded.then(|| self.log.bytes(&self.source, entry).into_owned()),
             excerpt: if discarded { Default::default() } else { self.log.excerpt(&self.source, index) },
         }))
     }
@@ -129,7 +214,7 @@ impl<S: Source> Reader<S> {
         const SHOWN: usize = 500;
         const LONGEST: usize = 300;
         let unread = self.log.unread();
-        let text = |(line, offset): &(u32, u32)| (*line, self.log.text_at(&self.source, *offset, LONGEST));
+        let text = |(line, offset): (u32, u64)| (line, self.log.text_at(&self.source, offset, LONGEST));
         Answer::Unread {
             lines: unread.iter().take(SHOWN).map(text).collect(),
             more: unread.len().saturating_sub(SHOWN),
@@ -140,7 +225,7 @@ impl<S: Source> Reader<S> {
     fn sample(&self) -> Answer {
         const LONGEST: usize = 1000;
         let first = self.log.entries().iter().find(|entry| entry.line > 0).map(|entry| entry.offset);
-        let offset = first.or(self.log.unread().first().map(|(_, offset)| *offset)).unwrap_or_default();
+        let offset = first.or(self.log.unread().iter().next().map(|(_, offset)| offset)).unwrap_or_default();
         Answer::Sample(self.log.text_at(&self.source, offset, LONGEST))
     }
 
@@ -166,7 +251,8 @@ impl<S: Source> Reader<S> {
             Export::Capture => write(&capture.begin()),
             _ => {}
         }
-        for chosen in self.chosen.chunks(AT_ONCE) {
+        for from in (0..self.chosen.len()).step_by(AT_ONCE) {
+            let chosen = &self.chosen.indices(from..from + AT_ONCE)[..];
             let text = match kind {
                 Export::Capture => {
                     let chosen: Vec<usize> = chosen.iter().map(|index| *index as usize).collect();
@@ -182,8 +268,9 @@ impl<S: Source> Reader<S> {
     }
 
     fn hex(&self, chosen: &[u32]) -> String {
-        let entries = chosen.iter().map(|index| &self.log.entries()[*index as usize]);
-        entries.map(|entry| hex(self.log.bytes(entry)) + "\n").collect()
+        let mut bytes = Bytes::new(&self.log, &self.source);
+        let entries = chosen.iter().map(|index| self.log.entry(*index as usize));
+        entries.map(|entry| hex(bytes.of(&entry)) + "\n").collect()
     }
 
     /// The log's own lines.
@@ -191,7 +278,7 @@ impl<S: Source> Reader<S> {
         const LONGEST: usize = 4096;
         let mut last = None;
         let mut text = String::new();
-        for entry in chosen.iter().map(|index| &self.log.entries()[*index as usize]) {
+        for entry in chosen.iter().map(|index| self.log.entry(*index as usize)) {
             if entry.line > 0 && last != Some(entry.offset) {
                 text += &self.log.text_at(&self.source, entry.offset, LONGEST);
                 text.push('\n');
@@ -203,9 +290,11 @@ impl<S: Source> Reader<S> {
 
     /// What telegrams say, each by itself, with what their partners tell of them.
     fn read(&self, chosen: &[u32], kind: Export, notes: &BTreeMap<usize, String>) -> String {
-        let entries = self.log.entries();
-        let chosen: Vec<usize> =
-            chosen.iter().map(|index| *index as usize).filter(|index| entries[*index].counts()).collect();
+        let chosen: Vec<usize> = chosen
+            .iter()
+            .map(|index| *index as usize)
+            .filter(|index| self.log.entry(*index).counts())
+            .collect();
         let read = self.log.with_partners(chosen.iter().copied());
         let mut report = self.log.report(&self.source, &read);
         for telegram in &mut report.telegrams {

@@ -13,10 +13,13 @@ use super::mail;
 use super::messages::{Answer, How, Request};
 use super::reader::Reader;
 use crate::browser::file;
-use buslens::tool::log::{BEGINNING, Log, Source};
+use buslens::tool::log::{BEGINNING, Log, SMALL, Source};
 
 /// What is read at a time.
 const PIECE: u64 = 4 << 20;
+
+/// What is read at first, so that there is something to see at once.
+const FIRST: u64 = 1 << 20;
 
 thread_local! {
     static DESK: RefCell<Desk> = RefCell::default();
@@ -26,6 +29,10 @@ thread_local! {
 #[derive(Default)]
 struct Desk {
     reader: Option<Reader<File>>,
+    /// The file is read: what goes out has all of it.
+    complete: bool,
+    /// What waits until it is.
+    waiting: Vec<Request>,
     /// Counts what was opened: a reading that is not the latest gives up.
     turn: u32,
     stopped: bool,
@@ -58,8 +65,15 @@ impl Source for File {
             let buffer = FileReaderSync::new().ok()?.read_as_array_buffer(&slice).ok()?;
             Some(Uint8Array::new(&buffer).to_vec())
         };
-        // Only the places of bytes in their lines are read again; without the file they are not marked.
-        read().unwrap_or_default()
+        read().unwrap_or_else(|| {
+            // Of a small one only the places of bytes in their lines are read again: they are not marked then.
+            if self.size() > SMALL {
+                let why = "The file was changed or moved since it was opened: what its telegrams say is not known any \
+                           more.";
+                tell(&Answer::Lost(why.to_owned()));
+            }
+            Vec::new()
+        })
     }
 }
 
@@ -96,13 +110,15 @@ fn hear(request: Request, beside: JsValue) {
             let Ok(blob) = beside.dyn_into::<Blob>() else { return };
             let turn = DESK.with_borrow_mut(|desk| {
                 desk.turn += 1;
-                desk.stopped = false;
-                desk.reader = None;
+                *desk = Desk { turn: desk.turn, ..Desk::default() };
                 desk.turn
             });
             spawn_local(open(turn, File(blob), how));
         }
         Request::Stop => DESK.with_borrow_mut(|desk| desk.stopped = true),
+        Request::Export { .. } | Request::PassOn(_) if DESK.with_borrow(|desk| !desk.complete) => {
+            DESK.with_borrow_mut(|desk| desk.waiting.push(request));
+        }
         Request::Export { kind, notes } => DESK.with_borrow(|desk| {
             let Some(reader) = &desk.reader else { return };
             let parts = Array::new();
@@ -138,38 +154,52 @@ async fn open(turn: u32, file: File, how: How) {
     if !come(file.part(0, BEGINNING as u64), &mut part).await {
         return tell(&gone());
     }
-    let mut log = match Log::open(&part, size, &how.reading(), how.options()) {
+    let log = match Log::open(&part, size, &how.reading(), how.options()) {
         Ok(log) => log,
         Err(refusal) => return tell(&Answer::Refused(refusal.to_string())),
     };
+    // From now on it is asked while it reads.
+    let reader = Reader::new(log, file.clone(), size);
+    if !DESK.with_borrow_mut(|desk| desk.turn == turn && desk.reader.replace(reader).is_none()) {
+        return;
+    }
     let mut at = 0;
-    let mut next = file.part(0, PIECE);
+    let mut next = file.part(0, FIRST);
     while at < size {
         if !come(next, &mut part).await {
             return tell(&gone());
         }
-        let (latest, stopped) = DESK.with_borrow(|desk| (desk.turn == turn, desk.stopped));
-        if !latest {
-            return;
-        }
         at += part.len() as u64;
         // The browser reads the next part while this one is taken.
         next = file.part(at, PIECE);
-        let room = log.push(&part);
-        tell(&Answer::Progress { done: at as f64, telegrams: log.entries().len() });
-        if stopped || !room || part.is_empty() {
-            break;
+        match DESK.with_borrow_mut(|desk| desk.take(turn, &part, at)) {
+            Some(true) => {}
+            Some(false) => break,
+            None => return,
         }
     }
-    log.finish();
-    let mut reader = Reader::new(log, file, size);
-    let answers = reader.opening();
-    DESK.with_borrow_mut(|desk| {
-        if desk.turn == turn {
-            desk.reader = Some(reader);
-            answers.iter().for_each(tell);
-        }
-    });
+    let waiting = DESK.with_borrow_mut(|desk| desk.finish(turn));
+    waiting.into_iter().for_each(|request| hear(request, JsValue::UNDEFINED));
+}
+
+impl Desk {
+    /// Takes the part of the file that ends at `at`; `None` if another one was opened meanwhile, and `false` if
+    /// this is all that is to be read.
+    fn take(&mut self, turn: u32, part: &[u8], at: u64) -> Option<bool> {
+        let reader = self.reader.as_mut().filter(|_| self.turn == turn)?;
+        let room = reader.take(part);
+        tell(&Answer::Progress { done: at as f64, telegrams: reader.telegrams() });
+        reader.growing().iter().for_each(tell);
+        Some(room && !self.stopped && !part.is_empty())
+    }
+
+    /// The file is read; returns what waited for that.
+    fn finish(&mut self, turn: u32) -> Vec<Request> {
+        let Some(reader) = self.reader.as_mut().filter(|_| self.turn == turn) else { return Vec::new() };
+        reader.finish().iter().for_each(tell);
+        self.complete = true;
+        std::mem::take(&mut self.waiting)
+    }
 }
 
 /// Waits for a part of a file, and puts it into `part`, whose room is used again and again.

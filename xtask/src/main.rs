@@ -4,6 +4,7 @@
 
 mod build;
 mod check;
+mod compare;
 mod fuzz;
 mod mutants;
 mod page_tests;
@@ -37,6 +38,7 @@ Usage: cargo xtask <command>
                      tries random inputs against the library's laws; --replay FILE tries one again
   mutants [--of codecs|reader] [--sample N] [--seed S]
                      changes the code here and there, and counts the changes that no test notices
+  compare            measures other programs that read Modbus on the same data, and Buslens
   reproducible       builds the page in two folders and compares every byte
   --help             this text";
 
@@ -58,10 +60,11 @@ fn main() -> ExitCode {
         ["test", "page", ..] => return done(go_to_root().and_then(|()| page_tests::run(&words[2..]))),
         ["fuzz", ref arguments @ ..] => return done(go_to_root().and_then(|()| fuzz::run(arguments))),
         ["mutants", ref arguments @ ..] => return done(go_to_root().and_then(|()| mutants::run(arguments))),
+        ["compare"] => |_| compare::run(),
         ["reproducible"] => |_| reproducible::check(),
         // Started by the tests themselves, see page_tests.rs.
         [page_tests::KEEP, program] => return page_tests::keep(program),
-        [command @ ("build" | "serve" | "test" | "reproducible"), ..] => {
+        [command @ ("build" | "serve" | "test" | "compare" | "reproducible"), ..] => {
             return refuse(&format!("`{command}` is not followed by that."));
         }
         [unknown, ..] => return refuse(&format!("There is no command `{unknown}`.")),

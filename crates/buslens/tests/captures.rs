@@ -171,7 +171,7 @@ fn telegrams_are_found_in_connections() {
         (22_000, packet(false, 1, ACK, &response)),
     ];
     let log = Log::read(&capture(FORMS[4], &packets), &Reading::default(), Options::default()).unwrap();
-    let found: Vec<_> = log.entries().iter().map(|it| (it.direction, it.unit, log.latency(it))).collect();
+    let found: Vec<_> = log.entries().iter().map(|it| (it.direction, it.unit, log.latency(&it))).collect();
     assert_eq!(found.len(), 2, "{found:?}");
     assert_eq!(found[1].0, Direction::Response);
     assert_eq!(log.port_name(0).unwrap(), "10.0.0.5:49152 – 10.0.0.9:502");
@@ -181,7 +181,7 @@ fn telegrams_are_found_in_connections() {
         &Reading::default(),
         Options::default(),
     );
-    assert_eq!(log.unwrap().entries()[0].protocol().key, "modbus-rtu");
+    assert_eq!(log.unwrap().entry(0).protocol().key, "modbus-rtu");
     let page = b"GET / HTTP/1.1\r\n".repeat(400);
     let parts: Vec<(u64, Vec<u8>)> = page
         .chunks(1000)
@@ -237,7 +237,8 @@ fn dumps_of_packets_are_read_as_captures_are() {
         let entries = log.entries().iter();
         entries
             .map(|it| {
-                (log.bytes(it).to_vec(), it.direction, it.time(), log.latency(it), log.port_name(it.port))
+                let bytes = log.bytes(&&[][..], &it).into_owned();
+                (bytes, it.direction, it.time(), log.latency(&it), log.port_name(it.port))
             })
             .collect()
     };

@@ -71,13 +71,16 @@ fn a_capture_holds_what_the_log_held() {
         let capture = captured(&log, &file);
         let again = read(&capture, device);
         assert_eq!(again.fault(), None, "{name}");
-        let held = |log: &Log| -> Vec<_> {
+        let held = |log: &Log, file: &[u8]| -> Vec<_> {
             let counted = log.entries().iter().filter(|entry| entry.counts());
             counted
-                .map(|it| (log.bytes(it).to_vec(), it.direction, it.time(), it.protocol().key, log.state(it)))
+                .map(|it| {
+                    let bytes = log.bytes(&file, &it).into_owned();
+                    (bytes, it.direction, it.time(), it.protocol().key, log.state(&it))
+                })
                 .collect()
         };
-        assert_eq!(held(&again), held(&log), "{name}");
+        assert_eq!(held(&again, &capture), held(&log, &file), "{name}");
         // What stands beside them is text of the file.
         let has = |text: &str| capture.windows(text.len()).any(|part| part == text.as_bytes());
         assert!(has("Note: first") && has("[unanswered]"), "{name}");
@@ -88,12 +91,14 @@ fn a_capture_holds_what_the_log_held() {
 fn characters_of_a_line_come_back() {
     let file = b":010300C8000331\r\n:0183027A\r\n".as_slice();
     let log = read(file, "");
-    assert_eq!(log.entries()[0].protocol().key, "modbus-ascii");
-    let again = read(&captured(&log, file), "");
-    let held = |log: &Log| -> Vec<_> {
-        log.entries().iter().map(|it| (it.protocol().key, log.bytes(it).to_vec())).collect()
+    assert_eq!(log.entry(0).protocol().key, "modbus-ascii");
+    let capture = captured(&log, file);
+    let again = read(&capture, "");
+    let held = |log: &Log, file: &[u8]| -> Vec<_> {
+        let entries = log.entries().iter();
+        entries.map(|it| (it.protocol().key, log.bytes(&file, &it).into_owned())).collect()
     };
-    assert_eq!(held(&again), held(&log));
+    assert_eq!(held(&again, &capture), held(&log, file));
 }
 
 fn hidden() -> Hidden {
@@ -114,7 +119,7 @@ fn a_log_to_pass_on_reads_as_before() {
         assert_eq!(passed.file.len(), file.len(), "{name}");
         assert_eq!((passed.left, passed.is_capture), (0, false), "{name}");
         let states = |log: &Log| -> Vec<_> {
-            log.entries().iter().map(|it| (log.state(it), it.time(), it.line, it.verdict)).collect()
+            log.entries().iter().map(|it| (log.state(&it), it.time(), it.line, it.verdict)).collect()
         };
         assert_eq!(states(&again), states(&log), "{name}");
         // What happened to damaged telegrams can still be found.
@@ -203,7 +208,7 @@ fn a_capture_to_pass_on_has_other_ends() {
     assert!(passed.is_capture);
     let (again, before) = (read(&passed.file, ""), read(&capture, ""));
     let states =
-        |log: &Log| -> Vec<_> { log.entries().iter().map(|it| (log.state(it), it.time())).collect() };
+        |log: &Log| -> Vec<_> { log.entries().iter().map(|it| (log.state(&it), it.time())).collect() };
     assert_eq!(states(&again), states(&before));
 }
 

@@ -29,6 +29,6 @@ fn run(data: &[u8]) {
     let mut at = cuts.map(|cut| usize::from(cut) * 3 % file.len().max(1));
     at.sort_unstable();
     let parts = read(file, &reading, &options, &at).expect("a file that is read is read in parts");
-    assert_same(&parts, &whole, &format!("in parts that end at {at:?}"));
+    assert_same(&parts, &whole, file, &format!("in parts that end at {at:?}"));
     show(&whole, file, how);
 }

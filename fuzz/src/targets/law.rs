@@ -91,11 +91,11 @@ fn columns(row: &str) -> usize {
 }
 
 /// Two readings of the same log say the same.
-pub fn assert_same(parts: &Log, whole: &Log, how: &str) {
+pub fn assert_same(parts: &Log, whole: &Log, file: &[u8], how: &str) {
     assert_eq!(parts.entries().len(), whole.entries().len(), "telegrams {how}");
     for (index, (one, other)) in parts.entries().iter().zip(whole.entries()).enumerate() {
         assert_eq!(one, other, "telegram {index} {how}");
-        assert_eq!(parts.bytes(one), whole.bytes(other), "telegram {index} {how}");
+        assert_eq!(parts.bytes(&file, &one), whole.bytes(&file, &other), "telegram {index} {how}");
     }
     assert_eq!(parts.unread(), whole.unread(), "lines without bytes {how}");
     assert_eq!(parts.lines(), whole.lines(), "lines {how}");

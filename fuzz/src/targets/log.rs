@@ -42,7 +42,7 @@ fn run(data: &[u8], kind: Kind) {
     let mut at = cuts.map(|cut| usize::from(cut) * 3 % length);
     at.sort_unstable();
     let parts = read(file, &reading, &options, &at).expect("a file that is read is read in parts");
-    assert_same(&parts, &whole, &format!("in parts that end at {at:?}"));
+    assert_same(&parts, &whole, file, &format!("in parts that end at {at:?}"));
     show(&whole, file, how);
 }
 
@@ -121,14 +121,14 @@ fn listed(log: &Log, file: &[u8], how: u8) {
         let excerpt = log.excerpt(&file, index);
         let again = excerpt.report(log.options());
         assert_eq!(again.detail(excerpt.place), report.detail(place), "telegram {index} elsewhere");
-        let entry = &log.entries()[index];
-        let start = log.registers(entry).map_or(u16::from(how), |(start, _)| start);
+        let entry = &log.entry(index);
+        let start = log.registers(&file, entry).map_or(u16::from(how), |(start, _)| start);
         assert!(log.series(&file, entry.unit, start, 5).len() <= 5);
     }
     let report = log.whole_report(&file);
     assert!(report.telegrams.len() <= all);
     proposals(&report);
     log.proposals(&file);
-    log.text_at(&file, u32::from(how), 9);
-    log.piece_at(&file, u32::MAX, 9);
+    log.text_at(&file, u64::from(how), 9);
+    log.piece_at(&file, u64::MAX, 9);
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use leptos::prelude::*;
 
 use crate::components::state_badge::StateBadge;
+use crate::components::wide_table::WideTable;
 use buslens::field::{Direction, grouped, many};
 use buslens::tool::digest::{Digest, Line, Party};
 
@@ -84,14 +85,12 @@ fn Units(units: Vec<Party>) -> impl IntoView {
     let rows = rows.into_iter().map(row).collect_view();
     view! {
         <h3>"Units"</h3>
-        <div class="wide" tabindex="0" role="region" aria-label="Units">
-            <table class="table">
-                <thead>
-                    <tr>{heads}</tr>
-                </thead>
-                <tbody>{rows}</tbody>
-            </table>
-        </div>
+        <WideTable label="Units">
+            <thead>
+                <tr>{heads}</tr>
+            </thead>
+            <tbody>{rows}</tbody>
+        </WideTable>
     }
 }
 

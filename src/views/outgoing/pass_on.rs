@@ -7,6 +7,7 @@ use crate::browser::file;
 use crate::components::dialog::Dialog;
 use crate::components::icon::{Glyph, Icon};
 use crate::components::toast::Toasts;
+use crate::components::wide_table::WideTable;
 use crate::worker::messages::Passed;
 use buslens::field::many;
 use buslens::tool::log::{Hidden, Replaced};
@@ -181,19 +182,17 @@ fn outcome(passed: &Passed) -> impl IntoView + use<> {
         {(count > 0)
             .then(|| {
                 view! {
-                    <div class="wide" tabindex="0" role="region" aria-label="What was replaced">
-                        <table class="table">
-                            <thead>
-                                <tr>
-                                    <th scope="col">"What"</th>
-                                    <th scope="col">"Was"</th>
-                                    <th scope="col">"Is now"</th>
-                                    <th scope="col">"Times"</th>
-                                </tr>
-                            </thead>
-                            <tbody>{rows}</tbody>
-                        </table>
-                    </div>
+                    <WideTable label="What was replaced">
+                        <thead>
+                            <tr>
+                                <th scope="col">"What"</th>
+                                <th scope="col">"Was"</th>
+                                <th scope="col">"Is now"</th>
+                                <th scope="col">"Times"</th>
+                            </tr>
+                        </thead>
+                        <tbody>{rows}</tbody>
+                    </WideTable>
                 }
             })}
         {(more > 0).then(|| view! { <p class="note">{format!("and {more} more, in the list")}</p> })}

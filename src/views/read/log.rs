@@ -20,7 +20,7 @@ use crate::worker::messages::{
 use buslens::field::many;
 use buslens::tool::Options;
 use buslens::tool::digest::Digest;
-use buslens::tool::log::{Filter, Held, Lanes, Overview, Row, Seen};
+use buslens::tool::log::{Filter, Held, Lanes, Overview, Row, Seen, State};
 
 /// How many rows are asked for at once: more than are in sight.
 pub const ASKED: usize = 80;
@@ -66,6 +66,8 @@ pub struct LogState {
     key: RwSignal<String>,
     /// The log was told of, and its first list is to come.
     is_new: StoredValue<bool>,
+    /// The telegram that was asked for is elsewhere in the list.
+    jumps: StoredValue<bool>,
     pub stage: RwSignal<Stage>,
     pub overview: RwSignal<Option<Arc<Overview>>>,
     pub findings: RwSignal<Vec<Found>>,
@@ -117,6 +119,7 @@ impl LogState {
             options: RwSignal::default(),
             key: RwSignal::default(),
             is_new: StoredValue::new(false),
+            jumps: StoredValue::new(false),
             stage: RwSignal::default(),
             overview: RwSignal::default(),
             findings: RwSignal::default(),
@@ -210,6 +213,10 @@ impl LogState {
     }
 
     pub fn ask(&self, request: Request) {
+        // Who goes along the list hears its rows; who jumps hears where to.
+        if let Request::Show(which) = &request {
+            self.jumps.set_value(!matches!(which, Which::At(_)));
+        }
         self.client().ask(request);
     }
 
@@ -336,6 +343,13 @@ impl LogState {
                     (*old, *before) = (done, telegrams);
                 }
             }),
+            Answer::Growing { overview, lanes, list } => {
+                let first = self.overview.with_untracked(Option::is_none);
+                self.overview.set(Some(Arc::from(overview)));
+                self.lanes.set(lanes);
+                if first { self.hear(Answer::List(list), None) } else { self.grown(list) }
+            }
+            Answer::Grown(list) => self.grown(list),
             Answer::Refused(why) => {
                 self.toasts.announce(why.clone());
                 self.forget();
@@ -396,6 +410,12 @@ impl LogState {
                 if !same {
                     self.lights.chosen.set(None);
                 }
+                if self.jumps.try_update_value(std::mem::take).unwrap_or_default() {
+                    let row = &told.row;
+                    let state = Some(row.state.word()).filter(|_| row.state != State::Plain);
+                    let said: Vec<&str> = [row.said.as_str()].into_iter().chain(state).collect();
+                    self.toasts.announce(format!("Telegram {}: {}.", row.index + 1, said.join(", ")));
+                }
                 self.current.set(Some(Arc::new(Current { told: *told, shown: shown.flatten() })));
             }
             Answer::NothingThere => self.toasts.say("There is no further one."),
@@ -413,6 +433,18 @@ impl LogState {
         }
     }
 
+    /// The list has more telegrams at its end.
+    fn grown(&self, list: usize) {
+        let before = self.total.get_untracked();
+        self.total.set(list);
+        let (from, known) = self.rows.with_untracked(|(from, rows)| (*from, rows.len()));
+        // The end was in sight.
+        if from + known >= before {
+            let state = *self;
+            Timeout::new(0, move || state.ask(Request::Rows { from, count: ASKED })).forget();
+        }
+    }
+
     /// The list is another one.
     fn listed(&self) {
         let total = self.total.get_untracked();
@@ -423,7 +455,8 @@ impl LogState {
         self.ask(Request::Rows { from: 0, count: ASKED });
         let shown = self.current.with_untracked(|current| current.as_ref().map(|it| it.told.row.index));
         match shown {
-            Some(index) => self.ask(Request::Show(Which::Index(index))),
+            // It is the same as before.
+            Some(index) => self.client().ask(Request::Show(Which::Index(index))),
             None if total > 0 => self.select(0),
             None => {}
         }

@@ -59,7 +59,7 @@ pub fn Start() -> impl IntoView {
             </div>
             <div>
                 <dt>"Logs"</dt>
-                <dd>"of any program; hex, octal and decimal dumps; captures (pcap, pcapng); raw bytes; up to 2 GB"</dd>
+                <dd>"of any program; hex, octal and decimal dumps; captures (pcap, pcapng); raw bytes; of any size"</dd>
             </div>
         </dl>
     }

@@ -80,6 +80,9 @@ pub struct Piece<'a> {
     pub breaks: &'a [usize],
     /// Where each byte stands, counted from [`offset`](Self::offset).
     pub places: &'a [Span],
+    /// Where they stand in the line as pairs of hex digits at equal distances: where the first one is, and how far it
+    /// is to the next.
+    pub pairs: Option<(usize, u8)>,
     /// The first line, counted from 1.
     pub line: u32,
     /// Where that line begins in the file.
@@ -393,6 +396,7 @@ impl Reader {
             decimal: None,
             breaks: &[],
             places: &places,
+            pairs: None,
             line: self.line,
             offset: self.offset,
             time,
@@ -438,6 +442,7 @@ impl Reader {
             decimal,
             breaks,
             places: &scan.places[run.first..run.end],
+            pairs: pairs(line, bytes, &scan.places[run.first..run.end]),
             line: self.line,
             offset: self.offset,
             time: context
@@ -552,6 +557,7 @@ impl Reader {
             bytes,
             breaks,
             places,
+            pairs: None,
             line: *line,
             offset: *offset,
             time: *time,
@@ -580,6 +586,7 @@ impl Reader {
                 decimal,
                 breaks: &[],
                 places: &column.places,
+                pairs: None,
                 line,
                 offset,
                 time: None,
@@ -623,6 +630,26 @@ fn without_comment(line: &[u8]) -> &[u8] {
 fn lead(line: &[u8], run: &Run) -> u8 {
     let before = line[..run.span.from].trim_ascii_end();
     before.last().copied().unwrap_or_default()
+}
+
+/// See [`Piece::pairs`].
+fn pairs(line: &[u8], bytes: &[u8], places: &[Span]) -> Option<(usize, u8)> {
+    let (first, second) = (places.first()?, places.get(1)?);
+    let step = u8::try_from(second.from.checked_sub(first.from)?).ok().filter(|step| *step > 1)?;
+    // The digits may stand behind a mark: `0x01`.
+    let from = [first.from, first.to.checked_sub(2)?]
+        .into_iter()
+        .find(|at| pair(line, *at) == bytes.first().copied())?;
+    let digits = (from..).step_by(step.into());
+    digits.zip(bytes).all(|(at, byte)| pair(line, at) == Some(*byte)).then_some((from, step))
+}
+
+/// The byte that two hex digits write.
+#[inline]
+pub fn pair(text: &[u8], at: usize) -> Option<u8> {
+    let [high, low] = *text.get(at..)?.first_chunk()?;
+    let digit = |c: u8| (c as char).to_digit(16);
+    Some((digit(high)? << 4 | digit(low)?) as u8)
 }
 
 /// Whether a colon or the like stands before a run.

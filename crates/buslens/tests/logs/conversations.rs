@@ -2,7 +2,7 @@ use std::fmt::Write as _;
 
 use buslens::field::{Direction, hex};
 use buslens::tool::Options;
-use buslens::tool::log::{Entry, Filter, Log, Reading, Role, Wanted};
+use buslens::tool::log::{Filter, Log, Reading, Role, Wanted};
 
 use super::generator::Sent;
 
@@ -60,9 +60,9 @@ fn retries_late_and_unasked_answers() {
     ]));
     use Role::{Broadcast, Late, Plain, Retry, Unasked};
     assert_eq!(roles(&log), [Plain, Retry, Plain, Unasked, Plain, Plain, Late, Plain, Broadcast]);
-    let partners: Vec<_> = log.entries().iter().map(Entry::partner).collect();
+    let partners: Vec<_> = log.entries().iter().map(|entry| entry.partner()).collect();
     assert_eq!(partners, [None, Some(2), Some(1), None, Some(6), Some(7), Some(4), Some(5), None]);
-    assert_eq!(log.latency(&log.entries()[2]), Some(20_000));
+    assert_eq!(log.latency(&log.entry(2)), Some(20_000));
     let all = log.statistics();
     assert_eq!((all.unanswered, all.retries, all.unasked, all.late, all.broadcasts), (1, 1, 1, 1, 1));
 }
@@ -150,7 +150,7 @@ fn names_of_speakers_are_no_connections() {
     }
     let log = read(&text);
     assert_eq!(log.statistics().pairs, 10);
-    assert_eq!(log.port_name(log.entries()[3].port), None);
+    assert_eq!(log.port_name(log.entry(3).port), None);
 }
 
 #[test]
@@ -185,7 +185,7 @@ fn over_tcp_several_requests_wait() {
         (9, "recv", frame(1, &[1, 3, 2, 0, 1])),
     ]);
     let log = read(&text);
-    let partners: Vec<_> = log.entries().iter().map(Entry::partner).collect();
+    let partners: Vec<_> = log.entries().iter().map(|entry| entry.partner()).collect();
     assert_eq!(partners, [Some(3), Some(2), Some(1), Some(0)]);
     assert_eq!(roles(&log), [Role::Plain; 4]);
 }
@@ -194,7 +194,7 @@ fn over_tcp_several_requests_wait() {
 fn midnight_is_passed() {
     let text = format!("23:59:59.990 Tx {}\n00:00:00.010 Rx {}\n", hex(&ask(1)), hex(&answer(1)));
     let log = read(&text);
-    assert_eq!(log.latency(&log.entries()[1]), Some(20_000));
+    assert_eq!(log.latency(&log.entry(1)), Some(20_000));
 }
 
 /// The writer of the log is the server: what it received are requests.
@@ -336,9 +336,9 @@ fn a_bare_stream_is_a_conversation_too() {
     let stream = [ask(5), answer(5), ask(6), ask(7), answer(7), ask(5), answer(5)].concat();
     let reading = Reading { input: buslens::tool::log::Input::Binary, ..Reading::default() };
     let log = Log::read(&stream, &reading, Options::default()).unwrap();
-    let partners: Vec<_> = log.entries().iter().map(Entry::partner).collect();
+    let partners: Vec<_> = log.entries().iter().map(|entry| entry.partner()).collect();
     assert_eq!(partners, [Some(1), Some(0), None, Some(4), Some(3), Some(6), Some(5)]);
-    assert!(log.entries().iter().all(|entry| log.latency(entry).is_none()));
+    assert!(log.entries().iter().all(|entry| log.latency(&entry).is_none()));
 }
 
 /// What is behind many errors is one finding, with its telegrams.

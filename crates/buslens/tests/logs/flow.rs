@@ -30,9 +30,9 @@ fn read(text: &str) -> Log {
     Log::read(text.as_bytes(), &Reading::default(), Options::default()).expect("a log")
 }
 
-fn found(log: &Log) -> Vec<(Vec<u8>, Direction)> {
+fn found(log: &Log, text: &str) -> Vec<(Vec<u8>, Direction)> {
     let telegrams = log.entries().iter().filter(|entry| entry.role != Role::Discarded);
-    telegrams.map(|entry| (log.bytes(entry).to_vec(), entry.direction)).collect()
+    telegrams.map(|entry| (log.bytes(&text.as_bytes(), &entry).into_owned(), entry.direction)).collect()
 }
 
 /// A heading, and how a line is written.
@@ -64,11 +64,11 @@ fn telegrams_are_put_together() {
             writeln!(text, "{}", form(time, byte)).unwrap();
         }
         let log = read(&text);
-        assert_eq!(found(&log), truth, "{}", text.lines().nth(3).unwrap_or_default());
-        let timed = log.entries()[1].time().is_some();
+        assert_eq!(found(&log, &text), truth, "{}", text.lines().nth(3).unwrap_or_default());
+        let timed = log.entry(1).time().is_some();
         let expected = 31_179 + telegrams[0].len() as i64 * BYTE as i64 + PAUSE as i64;
         let start = if heading.is_empty() { 36_000_000_000 } else { 0 };
-        assert_eq!(log.entries()[1].time(), timed.then_some(start + expected));
+        assert_eq!(log.entry(1).time(), timed.then_some(start + expected));
         let report = log.report(&text.as_bytes(), &[1]);
         let places = &report.telegrams[0].line.places;
         let shown: Vec<u8> = places
@@ -102,7 +102,7 @@ fn the_longer_pause_decides_where_two_lengths_are_right() {
             time += PAUSE;
         }
         let log = read(&text);
-        log.bytes(&log.entries()[0]).len()
+        usize::from(log.entry(0).length)
     };
     assert_eq!((read_with(9), read_with(8)), (9, 8));
 }

@@ -1321,7 +1321,7 @@ fn found(table: &mut String, text: &[u8]) {
             entry.line,
             entry.offset,
             entry.skip,
-            hex(log.bytes(entry)),
+            hex(&log.bytes(&text, &entry)),
             entry.protocol().key,
             entry.verdict,
             entry.direction
@@ -1364,7 +1364,9 @@ fn how_much_speaks_for_it() {
         let is_found = |doubled: u32| {
             let text = OTHER.repeat((1 << doubled) - 1) + "\n" + text;
             let log = Log::read(text.as_bytes(), &Reading::default(), Options::default()).unwrap();
-            log.entries().iter().any(|entry| entry.role != Role::Discarded && log.bytes(entry) == wanted)
+            log.entries()
+                .iter()
+                .any(|entry| entry.role != Role::Discarded && log.bytes(&text.as_bytes(), &entry) == wanted)
         };
         let all: Vec<u32> = (1..=MOST).collect();
         let bits = match all.partition_point(|doubled| is_found(*doubled)) as u32 {

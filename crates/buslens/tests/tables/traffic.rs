@@ -69,14 +69,15 @@ fn told(table: &mut String, way: Way, protocol: &str, chunks: &str) {
         }
         of_head.both_ways = way == Way::Connection;
         traffic.take(of_head);
-        offset += bytes.len() as u32;
+        offset += bytes.len() as u64;
     }
-    traffic.finish(false);
+    traffic.untyped();
+    traffic.finish();
     /// So many say what all of them would.
     const MOST: usize = 12;
     writeln!(table, "{}", chunks.chars().take(400).collect::<String>()).unwrap();
     for entry in traffic.entries().iter().take(MOST) {
-        let own = traffic.bytes(entry);
+        let own = traffic.entries().kept(&entry).unwrap();
         let bytes = match own.len() {
             0..=40 => hex(own),
             length => format!("{} … ({length} bytes)", hex(&own[..8])),
@@ -156,27 +157,18 @@ fn told(table: &mut String, way: Way, protocol: &str, chunks: &str) {
     }
 }
 
-/// So much of the log was read, and so much is to come: room is made for what the rest needs.
 #[test]
-fn room_for_the_rest() {
+fn other_protocols_are_counted() {
     let mut table = String::new();
-    for (taken, size) in [(0, 100), (100, 100), (50, 100), (10, 1000), (8, 1000), (1, 1_000_000), (100, 10)] {
-        let mut traffic = Traffic::new(Protocol::of("modbus-rtu").unwrap(), &Settings::default());
-        for _ in 0..4 {
-            traffic.take(Chunk { bytes: &bytes(ASKS), ..Chunk::default() });
-        }
-        let before = traffic.memory();
-        traffic.make_room(taken, size);
-        writeln!(table, "{taken} of {size}: {} bytes more", traffic.memory() - before).unwrap();
-    }
     let mut traffic = Traffic::new(Protocol::of("modbus-rtu").unwrap(), &Settings::default());
     for text in ["10 5B 0A 65 16", "AA 55 01 00 00 0B 11 04 00 01 20"] {
         let chunk = Chunk { bytes: &bytes(text), facts: Some(Facts::default()), ..Chunk::default() };
         traffic.take(chunk);
     }
-    traffic.finish(false);
+    traffic.untyped();
+    traffic.finish();
     writeln!(table, "{:?}", traffic.foreign_protocols()).unwrap();
-    assert_table("room", &table);
+    assert_table("other_protocols", &table);
 }
 
 #[test]

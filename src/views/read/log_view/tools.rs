@@ -9,6 +9,7 @@ use crate::components::dialog::Dialog;
 use crate::components::icon::Glyph;
 use crate::components::menu::{Menu, MenuItem};
 use crate::components::toast::Toasts;
+use crate::components::wide_table::WideTable;
 use crate::views::read::ReadState;
 use crate::views::read::editor::byte_offset;
 use crate::views::read::reading::{Choose, ReadingChoices};
@@ -96,14 +97,12 @@ fn Units() -> impl IntoView {
     ];
     let heads = heads.map(|head| view! { <th scope="col">{head}</th> });
     view! {
-        <div class="wide" tabindex="0" role="region" aria-label="Units and functions">
-            <table class="table">
-                <thead>
-                    <tr>{heads.into_iter().collect_view()}</tr>
-                </thead>
-                <tbody>{move || units().into_iter().map(row).collect_view()}</tbody>
-            </table>
-        </div>
+        <WideTable label="Units and functions">
+            <thead>
+                <tr>{heads.into_iter().collect_view()}</tr>
+            </thead>
+            <tbody>{move || units().into_iter().map(row).collect_view()}</tbody>
+        </WideTable>
     }
 }
 

@@ -1,10 +1,12 @@
 use std::collections::HashMap;
 
-use super::conversation;
-use super::entry::{self, Entry, Hint, NO_TIME, NOBODY, Role, number};
-use super::judge::{Shapes, Weak};
+use super::conversation::Meeting;
+use super::entries::Entries;
+use super::entry::{Entry, Hint, NO_TIME, NOBODY, Role, Written, number};
+use super::judge::{Known, Shapes, Weak};
 use super::lane::{Carries, Lane, PAUSE, Row};
 use super::pieces::Found;
+use super::settle::Lines;
 use crate::field::{Direction, Facts};
 use crate::frame::split::{Splitter, Waiting, can_split};
 use crate::frame::{Protocol, Settings, Verdict, modbus_rtu};
@@ -29,7 +31,9 @@ pub struct Chunk<'a> {
     pub known_port: bool,
     /// See [`Entry::line`] and [`Entry::offset`].
     pub line: u32,
-    pub offset: u32,
+    pub offset: u64,
+    /// How the bytes stand in the file, if they can be read again from there.
+    pub written: Option<Written>,
     /// Of a text: what it says of the bytes.
     pub facts: Option<Facts>,
     /// Of a text: the same numbers read as decimal, where they can be either.
@@ -45,8 +49,12 @@ pub struct Traffic {
     pub(super) settings: Settings,
     /// What most telegrams are.
     pub(super) protocol: &'static Protocol,
-    pub(super) data: Vec<u8>,
+    /// The telegrams that are settled.
+    pub(super) settled: Entries,
+    /// Those that are not, and their bytes.
     pub(super) entries: Vec<Entry>,
+    pub(super) data: Vec<u8>,
+    pub(super) meeting: Meeting,
     pub(super) lanes: Vec<Lane>,
     pub(super) lane_of: HashMap<(u16, u8), usize>,
     /// The lane of the last chunk, and its port and way.
@@ -63,24 +71,33 @@ pub struct Traffic {
     pub(super) both_ways: bool,
     /// See [`flow`](Traffic::flow).
     pub(super) flowing: bool,
-    /// How many more entries fit.
+    /// How many more entries can be told apart by their numbers.
     pub(super) room: usize,
-    /// See [`pauses`](Self::pauses).
+    /// See [`pauses`](Self::pauses): of what is settled, and of what is not.
     pub(super) pauses: Vec<(u32, u32)>,
+    pub(super) fresh_pauses: Vec<(u32, u32)>,
+    /// There are telegrams whose protocol has request and response take turns.
+    pub(super) turns: bool,
     /// A person said of which protocol all telegrams are.
     pub(super) by_hand: bool,
+    /// See [`leave_in_file`](Self::leave_in_file).
+    pub(super) in_file: bool,
     /// See [`directed`](Self::directed).
     pub(super) direction: Option<Direction>,
-    /// The telegrams of a text that have no proof, in their order.
+    /// The entries of a text that have no proof, in their order, of those that are not settled.
     pub(super) weak: Vec<Weak>,
     pub(super) shapes: Shapes,
-    /// Lines of a text with pieces that are no telegrams: number and place.
-    pub(super) passed: Vec<(u32, u32)>,
-    /// Entries that turned out to be parts of others.
+    /// What those with a proof tell of the others.
+    pub(super) known: Known,
+    /// A text holds nothing but what should be telegrams.
+    pub(super) typed: bool,
+    /// Lines of a text without bytes, or with pieces that are no telegrams: number and place.
+    pub(super) passed: Vec<(u32, u64)>,
+    /// Those of them that no telegram can stand in any more.
+    pub(super) lines: Lines,
+    /// Entries that turned out to be parts of others, of those that are not settled.
     pub(super) gone: Vec<u32>,
-    /// The line of the last piece of a text, its bytes, and who sent them: what is written twice in a line is
-    /// one telegram.
-    pub(super) latest_piece: (u32, Vec<u8>, Hint),
+    pub(super) latest_piece: Latest,
     /// The telegrams of the last piece: a place to work in, so that pieces do not allocate.
     pub(super) found: Vec<Found>,
     /// How many bytes the columns of a text had.
@@ -89,11 +106,30 @@ pub struct Traffic {
     pub(super) foreign_protocols: [u32; crate::dialogue::foreign::FOREIGN.len()],
 }
 
-/// More entries than this would not fit into the memory of a page.
-const MOST_ENTRIES: usize = 16_000_000;
+/// The last piece of a text: what is written twice in a line is one telegram.
+#[derive(Debug, Default)]
+pub(super) struct Latest {
+    pub line: u32,
+    pub bytes: Vec<u8>,
+    pub hint: Hint,
+}
+
+impl Latest {
+    pub fn set(&mut self, row: Row, bytes: &[u8]) {
+        (self.line, self.hint) = (row.line, row.hint);
+        self.bytes.clear();
+        self.bytes.extend_from_slice(bytes);
+    }
+}
+
+/// Their numbers have 32 bits, and one of them stands for none.
+const MOST_ENTRIES: usize = u32::MAX as usize;
 
 /// A piece longer than this is a stream.
 const LONG: usize = 1024;
+
+/// Microseconds: a pause that ends a telegram at 9600 baud is under 4 ms.
+const LONG_PAUSE: i64 = 5000;
 
 impl Traffic {
     /// For telegrams that are mostly of `protocol`.
@@ -102,8 +138,10 @@ impl Traffic {
             splitter: Splitter::new(settings.dialect),
             settings: settings.clone(),
             protocol,
-            data: Vec::new(),
+            settled: Entries::default(),
             entries: Vec::new(),
+            data: Vec::new(),
+            meeting: Meeting::default(),
             lanes: Vec::new(),
             lane_of: HashMap::new(),
             latest: 0,
@@ -116,13 +154,19 @@ impl Traffic {
             flowing: false,
             room: MOST_ENTRIES,
             pauses: Vec::new(),
+            fresh_pauses: Vec::new(),
+            turns: false,
             by_hand: false,
+            in_file: false,
             direction: None,
             weak: Vec::new(),
             shapes: Shapes::default(),
+            known: Known::default(),
+            typed: true,
             passed: Vec::new(),
+            lines: Lines::default(),
             gone: Vec::new(),
-            latest_piece: (0, Vec::new(), Hint::None),
+            latest_piece: Latest::default(),
             found: Vec::new(),
             in_columns: 0,
             foreign_protocols: [0; crate::dialogue::foreign::FOREIGN.len()],
@@ -131,6 +175,12 @@ impl Traffic {
 
     /// Takes the next bytes; `false` if the log has more telegrams than can be kept.
     pub fn take(&mut self, chunk: Chunk<'_>) -> bool {
+        self.read(chunk);
+        self.settle_blocks(chunk.line);
+        self.room > 0
+    }
+
+    fn read(&mut self, chunk: Chunk<'_>) {
         let time = chunk.time.map_or(NO_TIME, |time| self.continuous(time));
         self.data.reserve(chunk.bytes.len());
         self.both_ways |= chunk.both_ways;
@@ -164,10 +214,11 @@ impl Traffic {
             port: chunk.port,
             line: chunk.line,
             offset: chunk.offset,
+            written: chunk.written,
             facts: chunk.facts.unwrap_or_default(),
         };
         if chunk.both_ways && !self.told(index, &chunk, row) {
-            return true;
+            return;
         }
         let lane = &mut self.lanes[index];
         if lane.streaming && lane.buffer.is_empty() && !self.flowing {
@@ -178,7 +229,7 @@ impl Traffic {
             let lane = &mut self.lanes[index];
             lane.buffer.extend_from_slice(&chunk.bytes[used..]);
             lane.forget(used);
-            return self.room > 0;
+            return;
         }
         lane.rows.push(row);
         lane.buffer.extend_from_slice(chunk.bytes);
@@ -187,7 +238,11 @@ impl Traffic {
             lane.streaming = true;
             self.drain_buffer(index, false);
         }
-        self.room > 0
+    }
+
+    /// Bytes that stand in the file as they are need not be kept: it can be read again.
+    pub fn leave_in_file(&mut self) {
+        self.in_file = true;
     }
 
     /// A stream of bytes begins, with nothing to part its telegrams.
@@ -195,26 +250,6 @@ impl Traffic {
         let index = self.lane(0, 0);
         self.lanes[index].streaming = true;
         self.lanes[index].stream = true;
-    }
-
-    /// `taken` of a file's `size` bytes were read: makes room for what the rest will need, if it is like
-    /// them. To grow step by step would copy all of it again and again, and need twice the memory.
-    pub fn make_room(&mut self, taken: u64, size: u64) {
-        if !(1..size).contains(&taken) {
-            return;
-        }
-        let whole = |part: usize| {
-            let rest = part as u64 * (size - taken) / taken;
-            part + usize::try_from(rest + rest / 64).unwrap_or(usize::MAX / 2)
-        };
-        let entries = whole(self.entries.len()).min(MOST_ENTRIES);
-        if self.entries.capacity() < entries {
-            self.entries.reserve_exact(entries - self.entries.len());
-        }
-        let data = whole(self.data.len()).min(usize::try_from(size).unwrap_or(usize::MAX));
-        if self.data.capacity() < data {
-            self.data.reserve_exact(data - self.data.len());
-        }
     }
 
     /// Each chunk is a byte or two: they follow each other, and the pauses between them tell where
@@ -228,42 +263,27 @@ impl Traffic {
         self.by_hand = true;
     }
 
+    /// A text holds something else than what should be telegrams.
+    pub fn untyped(&mut self) {
+        self.typed = false;
+    }
+
     /// Who speaks in all telegrams, where a person says so.
     pub fn directed(&mut self, direction: Option<Direction>) {
         self.direction = direction;
     }
 
-    /// The log ends: what is left is read, what has no proof is judged, and the telegrams are met with each
-    /// other. `typed` says that a text holds nothing but what should be telegrams.
-    pub fn finish(&mut self, typed: bool) {
+    /// The log ends: what is left is read and settled.
+    pub fn finish(&mut self) {
         for index in 0..self.lanes.len() {
             self.close(index);
         }
-        self.judge(typed);
-        // What a capture says of a connection needs no guess.
-        if !self.both_ways {
-            conversation::join_speakers(&mut self.entries);
-        }
-        conversation::meet(&mut self.entries, &self.data);
+        self.settle_all();
     }
 
-    /// Lines of a text whose pieces are no telegrams: number and place, in order.
-    pub fn passed(&self) -> &[(u32, u32)] {
-        &self.passed
-    }
-
-    pub fn entries(&self) -> &[Entry] {
-        &self.entries
-    }
-
-    /// The bytes of an entry.
-    pub fn bytes(&self, entry: &Entry) -> &[u8] {
-        entry::bytes(entry, &self.data)
-    }
-
-    /// How many bytes of memory it takes.
-    pub fn memory(&self) -> usize {
-        self.data.capacity() + self.entries.capacity() * size_of::<Entry>()
+    /// The telegrams that are settled: all of them once the log ended.
+    pub fn entries(&self) -> &Entries {
+        &self.settled
     }
 
     fn lane(&mut self, port: u16, way: u8) -> usize {
@@ -315,14 +335,22 @@ impl Traffic {
         let timed = rows.filter(|pair| pair[0].time != NO_TIME && pair[1].time != NO_TIME);
         if let Some(pause) = timed.map(|pair| pair[1].time - pair[0].time).max()
             && let Some(entry) = self.entries.len().checked_sub(1)
+            && pause > LONG_PAUSE
         {
-            self.pauses.push((entry as u32, pause.clamp(0, PAUSE) as u32));
+            self.fresh_pauses.push((entry as u32, pause.min(PAUSE) as u32));
         }
     }
 
-    /// The telegrams that came in several chunks, with the longest pause between them in microseconds.
+    /// The telegrams that came in several chunks with pauses of more than [`LONG_PAUSE`] between them, and the
+    /// longest of these in microseconds.
     pub fn pauses(&self) -> &[(u32, u32)] {
         &self.pauses
+    }
+
+    /// How many bytes of memory it takes.
+    pub fn memory(&self) -> usize {
+        let in_hand = self.data.capacity() + self.entries.capacity() * size_of::<Entry>();
+        self.settled.memory() + self.lines.memory() + in_hand
     }
 
     /// How many pieces of a text are telegrams of each of the [`FOREIGN`](crate::dialogue::foreign::FOREIGN).
@@ -403,8 +431,9 @@ impl Traffic {
         let row = self.lanes[index].row(from);
         let mut entry = Entry {
             time: row.time,
-            at: kept as u32,
+            at: kept as u64,
             offset: row.offset,
+            written: self.written(index, row, from, bytes),
             line: row.line,
             skip: (from as isize - row.from).clamp(0, isize::from(i16::MAX)) as u16,
             length: bytes.len() as u16,
@@ -421,7 +450,7 @@ impl Traffic {
         };
         if row.line == 0 {
             // Of a stream, the place itself is known.
-            entry.offset = (i64::from(row.offset) + (from as isize - row.from) as i64) as u32;
+            entry.offset = row.offset.wrapping_add_signed((from as isize - row.from) as i64);
             entry.skip = 0;
         }
         if role == Role::Plain {
@@ -432,6 +461,21 @@ impl Traffic {
             }
         }
         self.entries.push(entry);
+    }
+
+    /// How `bytes`, which lie at `from` in their lane, stand in the file, if they can be read again from there.
+    #[inline]
+    fn written(&self, index: usize, row: Row, from: usize, bytes: &[u8]) -> Option<Written> {
+        let written = row.written.filter(|_| self.in_file)?;
+        if row.line == 0 {
+            return Some(written);
+        }
+        // What was put together, or read in another way, does not stand there.
+        let skip = usize::try_from(from as isize - row.from).ok()?;
+        let latest = &self.latest_piece;
+        let alone = self.lanes[index].rows.len() == 1 && latest.line == row.line;
+        let same = alone && latest.bytes.get(skip..skip + bytes.len()) == Some(bytes);
+        if same { written.behind(skip) } else { None }
     }
 
     /// An entry turns out to be of another protocol.
@@ -473,6 +517,7 @@ impl Traffic {
                     return;
                 }
                 crate::frame::Speaker::Turns(leaning) => {
+                    self.turns = true;
                     let leaning = leaning(bytes);
                     entry.sides = [leaning <= 0, leaning >= 0];
                     return;

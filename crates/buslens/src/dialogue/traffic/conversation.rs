@@ -1,5 +1,6 @@
 //! Requests meet their responses.
 
+use super::entries::Entries;
 use super::entry::{Entry, Hint, NOBODY, Role, bytes};
 use crate::field::Direction;
 use crate::frame::{ANY_EXCHANGE, Verdict};
@@ -16,26 +17,110 @@ struct Habits {
     twice: bool,
 }
 
-/// Tells who speaks in each telegram, and which response answers which request.
-pub(super) fn meet(entries: &mut [Entry], data: &[u8]) {
-    let habits = Habits::of(entries, data);
-    let mut ports: Vec<Port> = Vec::new();
-    for index in 0..entries.len() {
-        if entries[index].role == Role::Discarded {
-            continue;
+/// Who speaks in each telegram, and which response answers which request: told block by block.
+#[derive(Debug, Default)]
+pub(super) struct Meeting {
+    habits: Option<Habits>,
+    /// See [`join_speakers`].
+    joined: bool,
+    ports: Vec<Port>,
+    carried: Vec<Carried>,
+}
+
+/// A telegram of a block before, which those of later ones may have to do with.
+#[derive(Debug)]
+struct Carried {
+    index: usize,
+    entry: Entry,
+    bytes: Vec<u8>,
+}
+
+impl Meeting {
+    /// Meets the telegrams of the next block with each other and with those before, of which `entries` has all.
+    /// What is true for the whole log is told by its first block of some length. With `guess`, ports may be joined.
+    pub fn meet(&mut self, entries: &mut Entries, block: &mut [Entry], data: &[u8], guess: bool) {
+        /// Fewer telegrams do not speak for those behind them.
+        const ENOUGH: usize = 256;
+        if self.habits.is_none() {
+            self.joined = guess && join_speakers(block);
         }
-        let port = usize::from(entries[index].port);
-        if ports.len() <= port {
-            ports.resize_with(port + 1, Port::default);
+        if self.joined {
+            block.iter_mut().for_each(|entry| entry.port = 0);
         }
-        ports[port].next(entries, data, index, habits);
+        let habits = self.habits.unwrap_or_else(|| Habits::of(block, data));
+        self.habits = (self.habits.is_some() || block.len() >= ENOUGH).then_some(habits);
+        let base = entries.len();
+        let mut window = Window { base, block, data, carried: &mut self.carried, entries };
+        for at in 0..window.block.len() {
+            if window.block[at].role == Role::Discarded {
+                continue;
+            }
+            let port = usize::from(window.block[at].port);
+            if self.ports.len() <= port {
+                self.ports.resize_with(port + 1, Port::default);
+            }
+            self.ports[port].next(&mut window, base + at, habits);
+        }
+        self.carry(base, block, data);
+    }
+
+    /// Keeps what the next block may have to do with.
+    fn carry(&mut self, base: usize, block: &[Entry], data: &[u8]) {
+        let mut wanted: Vec<usize> = self.ports.iter().flat_map(Port::wanted).collect();
+        wanted.sort_unstable();
+        wanted.dedup();
+        self.carried.retain(|carried| wanted.binary_search(&carried.index).is_ok());
+        let fresh = wanted.partition_point(|index| *index < base);
+        self.carried.extend(wanted[fresh..].iter().map(|index| {
+            let entry = block[index - base];
+            Carried { index: *index, entry, bytes: bytes(&entry, data).to_vec() }
+        }));
+    }
+}
+
+/// The telegrams of a block, and what was carried along from those before.
+struct Window<'a> {
+    /// The index of the block's first telegram.
+    base: usize,
+    block: &'a mut [Entry],
+    data: &'a [u8],
+    carried: &'a mut Vec<Carried>,
+    entries: &'a mut Entries,
+}
+
+impl Window<'_> {
+    #[inline]
+    fn get(&self, index: usize) -> (&Entry, &[u8]) {
+        // Those before the block are none of its places.
+        match self.block.get(index.wrapping_sub(self.base)) {
+            Some(entry) => (entry, bytes(entry, self.data)),
+            None => self.get_carried(index),
+        }
+    }
+
+    #[cold]
+    fn get_carried(&self, index: usize) -> (&Entry, &[u8]) {
+        let place = self.carried.partition_point(|carried| carried.index < index);
+        let Carried { entry, bytes, .. } = &self.carried[place];
+        (entry, bytes)
+    }
+
+    #[inline]
+    fn change(&mut self, index: usize, change: impl FnOnce(&mut Entry)) {
+        if let Some(entry) = self.block.get_mut(index.wrapping_sub(self.base)) {
+            return change(entry);
+        }
+        let place = self.carried.partition_point(|carried| carried.index < index);
+        let Carried { entry, .. } = &mut self.carried[place];
+        change(entry);
+        self.entries.set(index, entry);
     }
 }
 
 /// Where each port has only requests or only responses, their names say who speaks, not on which line: a
 /// log that names the sender of each telegram, or a line whose two directions are tapped. All are one
 /// port then.
-pub(super) fn join_speakers(entries: &mut [Entry]) {
+fn join_speakers(entries: &[Entry]) -> bool {
     let mut sides: Vec<[bool; 2]> = Vec::new();
     for entry in entries.iter().filter(|entry| entry.role != Role::Discarded) {
         let port = usize::from(entry.port);
@@ -50,19 +135,15 @@ pub(super) fn join_speakers(entries: &mut [Entry]) {
         sides[port][0] |= asks;
         sides[port][1] |= answers;
         if sides[port] == [true, true] {
-            return;
+            return false;
         }
     }
-    let of = |side: [bool; 2]| sides.iter().filter(|sides| **sides == side).count();
-    if of([true, false]) > 0 && of([false, true]) > 0 {
-        entries.iter_mut().for_each(|entry| entry.port = 0);
-    }
+    [[true, false], [false, true]].iter().all(|side| sides.contains(side))
 }
 
 /// Whether two telegrams are the same. Their lengths and checks tell most apart, in one step.
 #[inline]
-fn alike(a: &Entry, b: &Entry, data: &[u8]) -> bool {
-    let (one, other) = (bytes(a, data), bytes(b, data));
+fn alike(one: &[u8], other: &[u8]) -> bool {
     let [last, other_last] = [one, other].map(|bytes| bytes.last().copied().unwrap_or_default());
     (one.len() ^ other.len()) | usize::from(last ^ other_last) == 0 && one == other
 }
@@ -95,7 +176,8 @@ impl Habits {
                 _ => {}
             }
             hinted += i64::from(matches!(entry.hint, Hint::Logger | Hint::Other)) * side.abs();
-            let same = previous.is_some_and(|it| alike(it, entry, data) && it.port == entry.port);
+            let same = previous
+                .is_some_and(|it| alike(bytes(it, data), bytes(entry, data)) && it.port == entry.port);
             doubled = same && !doubled;
             counts[(1 - side) as usize][usize::from(doubled)] += 1;
             previous = Some(entry);
@@ -122,20 +204,25 @@ struct Port {
 }
 
 impl Port {
-    fn next(&mut self, entries: &mut [Entry], data: &[u8], index: usize, habits: Habits) {
+    /// The telegrams that later ones may have to do with.
+    fn wanted(&self) -> impl Iterator<Item = usize> {
+        self.open.iter().map(|(request, _)| *request).chain(self.previous)
+    }
+
+    fn next(&mut self, window: &mut Window<'_>, index: usize, habits: Habits) {
         /// On a serial line answers come at once, or late; older ones are not waited for.
         const LATE: usize = 8;
-        let entry = entries[index];
-        let own = bytes(&entry, data);
-        let protocol = entry.protocol();
-        let same = self.previous.filter(|before| alike(&entries[*before], &entry, data));
+        let (entry, own) = window.get(index);
+        let (entry, protocol) = (*entry, entry.protocol());
+        let is_same = |other: &usize| alike(window.get(*other).1, own);
+        let same = self.previous.filter(is_same);
         if habits.twice
-            && same.is_some_and(|before| {
-                entries[before].role != Role::Copy && entries[before].hint == entry.hint
-            })
+            && let Some((before, _)) = same.map(|before| window.get(before))
+            && before.role != Role::Copy
+            && before.hint == entry.hint
         {
-            entries[index].role = Role::Copy;
-            entries[index].direction = entries[self.previous.unwrap_or(index)].direction;
+            let direction = before.direction;
+            window.change(index, |entry| (entry.role, entry.direction) = (Role::Copy, direction));
             self.previous = Some(index);
             return;
         }
@@ -157,7 +244,7 @@ impl Port {
                 })
             }
         };
-        let again = self.echoed && last.is_some_and(|(request, _)| alike(&entries[request], &entry, data));
+        let again = self.echoed && last.is_some_and(|(request, _)| is_same(&request));
         let echoes = habits.echo && repeats && !self.echoed && (entry.sides[0] || entry.sides == [false; 2]);
         let direction = match (entry.sides, hinted) {
             _ if echoes => Direction::Request,
@@ -169,44 +256,45 @@ impl Port {
             ([false, true], _) => Direction::Response,
             // The answer to a write of one value repeats it: another value is another write.
             _ if awaited && repeats_request(&entry) && protocol.waiting == 1 => {
-                let asked = last.map(|(request, _)| bytes(&entries[request], data));
+                let asked = last.map(|(request, _)| window.get(request).1);
                 let same = asked.is_some_and(|asked| asked.starts_with(own) || own.starts_with(asked));
                 if same { Direction::Response } else { Direction::Request }
             }
             // What was cut before comes whole now.
             _ if entry.sides == [false; 2]
-                && self.previous.is_some_and(|it| begins_with(own, bytes(&entries[it], data))) =>
+                && self.previous.is_some_and(|it| begins_with(own, window.get(it).1)) =>
             {
-                self.previous.map_or(Direction::Request, |it| entries[it].direction)
+                self.previous.map_or(Direction::Request, |it| window.get(it).0.direction)
             }
             // Of a function that is not known the same bytes again are another try.
             _ if awaited && repeats && entry.sides == [false; 2] => Direction::Request,
             _ if awaited => Direction::Response,
             _ => Direction::Request,
         };
-        if direction == Direction::Request && awaited && repeats_request(&entry) {
-            entries[index].sides = [true, false];
-        }
-        if entry.sides == [false; 2] && direction == Direction::Response {
-            entries[index].sides = [false, true];
-        }
-        entries[index].direction = direction;
+        let sides = match direction {
+            Direction::Request if awaited && repeats_request(&entry) => [true, false],
+            Direction::Response if entry.sides == [false; 2] => [false, true],
+            _ => entry.sides,
+        };
         self.previous = Some(index);
         if echoes {
-            entries[index].role = Role::Echo;
+            let role = Role::Echo;
+            window
+                .change(index, |entry| (entry.direction, entry.sides, entry.role) = (direction, sides, role));
             self.echoed = true;
             return;
         }
+        let (mut role, mut partner) = (entry.role, entry.partner);
         let most = if protocol.waiting > 1 { protocol.waiting } else { LATE };
         match (direction, exchange) {
-            (Direction::Request, None) => entries[index].role = Role::Broadcast,
+            (Direction::Request, None) => role = Role::Broadcast,
             (Direction::Request, Some(exchange)) => {
                 // Polls are alike, too: only who asks again at once tries again.
                 if repeats || again {
-                    entries[index].role = Role::Retry;
+                    role = Role::Retry;
                     // Of a function that is not known, that tells who speaks.
                     if let Some((request, _)) = last.filter(|_| entry.sides == [false; 2]) {
-                        entries[request].sides = [true, false];
+                        window.change(request, |request| request.sides = [true, false]);
                     }
                 }
                 self.echoed = false;
@@ -217,7 +305,7 @@ impl Port {
                 }
                 self.open.push((index, exchange));
             }
-            (Direction::Response, None) => entries[index].role = Role::Unasked,
+            (Direction::Response, None) => role = Role::Unasked,
             (Direction::Response, Some(exchange)) => {
                 let place =
                     self.open.iter().rposition(|(_, open)| exchange == ANY_EXCHANGE || *open == exchange);
@@ -225,14 +313,18 @@ impl Port {
                     Some(place) => {
                         let late = protocol.waiting == 1 && place + 1 < self.open.len();
                         let (request, _) = self.open.remove(place);
-                        entries[index].role = if late { Role::Late } else { Role::Plain };
-                        entries[index].partner = request as u32;
-                        entries[request].partner = index as u32;
+                        role = if late { Role::Late } else { Role::Plain };
+                        partner = request as u32;
+                        window.change(request, |request| request.partner = index as u32);
                     }
-                    None => entries[index].role = Role::Unasked,
+                    None => role = Role::Unasked,
                 }
             }
         }
-        debug_assert!(entries[index].partner == NOBODY || entries[index].partner != index as u32);
+        debug_assert!(partner == NOBODY || partner != index as u32);
+        window.change(index, |entry| {
+            (entry.direction, entry.sides) = (direction, sides);
+            (entry.role, entry.partner) = (role, partner);
+        });
     }
 }

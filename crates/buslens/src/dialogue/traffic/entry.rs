@@ -1,15 +1,17 @@
-use crate::field::{Direction, Span};
+use crate::field::Direction;
 use crate::frame::{PROTOCOLS, Protocol, Verdict};
 
-/// A telegram of a log, in as little room as possible: a log can have millions.
+/// A telegram of a log. [`Entries`](super::Entries) keeps millions in little room.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Entry {
     /// Microseconds, see [`time`](Self::time).
     pub(super) time: i64,
-    /// Its first byte in [`Traffic::data`](super::Traffic::data).
-    pub(super) at: u32,
+    /// Its first byte among those that are kept.
+    pub(super) at: u64,
     /// Where the line, or the piece of a stream, begins that its first byte is in.
-    pub offset: u32,
+    pub offset: u64,
+    /// How its bytes can be read again from the file, if they can.
+    pub(super) written: Option<Written>,
     /// The number of that line, from 1; 0 where there are no lines.
     pub line: u32,
     /// How many bytes of other telegrams that line or piece has before it.
@@ -29,6 +31,23 @@ pub struct Entry {
     /// It has the length of a request, and that of a response.
     pub(super) sides: [bool; 2],
     pub(super) hint: Hint,
+}
+
+/// How the bytes of a telegram stand in the file, all in the same way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Written {
+    /// How far behind [`Entry::offset`] the first one begins.
+    pub from: u32,
+    /// One begins so far behind the other: 1 if they are the bytes of the file, else they are pairs of hex digits.
+    pub step: u8,
+}
+
+impl Written {
+    /// The same from the byte `skip` on.
+    pub(super) fn behind(self, skip: usize) -> Option<Self> {
+        let skip = u32::try_from(skip * usize::from(self.step)).ok()?;
+        Some(Self { from: self.from.checked_add(skip)?, ..self })
+    }
 }
 
 /// What is special about a telegram in its conversation.
@@ -81,6 +100,11 @@ impl Entry {
         (self.partner != NOBODY).then_some(self.partner as usize)
     }
 
+    /// How its bytes can be read again from the file, if they can; else they are kept.
+    pub fn written(&self) -> Option<Written> {
+        self.written
+    }
+
     pub(super) fn set_protocol(&mut self, protocol: &'static Protocol) {
         self.protocol = number(protocol);
     }
@@ -127,10 +151,10 @@ impl Entry {
     }
 }
 
-/// The bytes of an entry in those of all.
+/// The bytes of an entry in those that are at hand.
 pub(super) fn bytes<'a>(entry: &Entry, data: &'a [u8]) -> &'a [u8] {
     let from = entry.at as usize;
-    Span::new(from, from + usize::from(entry.length)).of(data)
+    data.get(from..from + usize::from(entry.length)).unwrap_or_default()
 }
 
 /// The place of a protocol in [`PROTOCOLS`].

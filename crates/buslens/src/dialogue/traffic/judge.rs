@@ -167,23 +167,28 @@ fn family(protocol: &Protocol) -> Family {
 }
 
 impl Traffic {
-    /// Judges all entries without a proof, and takes out those that are no telegrams.
-    pub(super) fn judge(&mut self, typed: bool) {
-        if self.weak.is_empty() && self.gone.is_empty() && self.foreign_protocols[FT12] == 0 {
-            self.take_turns();
-            return self.settle_passed();
+    /// Judges those of the first `count` entries that have no proof, and takes the telegrams out.
+    pub(super) fn judge(&mut self, count: usize) -> Vec<Entry> {
+        let foreign = self.foreign_protocols[FT12] > 0;
+        if self.weak.is_empty() && self.gone.is_empty() && !foreign {
+            let mut block = self.take_out(count, &Chosen::of(count, std::iter::empty()), Vec::new());
+            self.take_turns(&mut block);
+            return block;
         }
-        let mut weak = std::mem::take(&mut self.weak);
         let mut gone = Chosen::of(self.entries.len(), self.gone.drain(..));
+        let later = self.weak.partition_point(|weak| (weak.entry as usize) < count);
+        let later = self.weak.split_off(later);
+        let mut weak = std::mem::replace(&mut self.weak, later);
         weak.retain(|weak| !gone.contains(weak.entry));
         // Who types telegrams types few lines that are none.
-        let read = self.entries.len() - weak.iter().filter(|weak| !weak.read || weak.facts.slips).count();
-        let typed = typed && (self.entries.len() <= FEW || read * 2 >= self.entries.len());
-        if typed {
-            self.choose_typed(&mut weak);
+        let read = count - weak.iter().filter(|weak| !weak.read || weak.facts.slips).count();
+        let typed = self.typed && (count <= FEW || read * 2 >= count);
+        if typed && self.settled.is_empty() {
+            self.choose_typed(count, &mut weak);
         }
         self.settle_pdus(&weak, &gone);
-        let known = Known::of(self, &weak, &gone, typed);
+        let mut known = std::mem::take(&mut self.known);
+        known.learn(self, count, &weak, &gone, typed);
         // Telegrams inside of what is none.
         let mut more: Vec<(u32, Vec<Entry>)> = Vec::new();
         for one in &weak {
@@ -193,25 +198,49 @@ impl Traffic {
                 more.push((one.entry, copies));
             }
         }
-        self.take_out_foreign(&mut gone);
+        self.take_out_foreign(count, &mut gone);
         let more = self.take_cut_copies(more, &known);
-        if !gone.is_empty() {
-            let mut more = more.into_iter().peekable();
-            let mut kept = Vec::with_capacity(self.entries.len());
-            for (index, entry) in (0_u32..).zip(&self.entries) {
-                if let Some((_, entries)) = more.next_if(|(at, _)| *at == index) {
-                    kept.extend(entries);
-                } else if !gone.contains(index) {
-                    kept.push(*entry);
-                }
-            }
-            self.entries = kept;
-            let sorted: Vec<u32> = gone.iter().collect();
-            let shift = |entry: u32| entry - sorted.partition_point(|other| *other < entry) as u32;
-            self.pauses.iter_mut().for_each(|(entry, _)| *entry = shift(*entry));
+        self.known = known;
+        let mut block = self.take_out(count, &gone, more);
+        self.take_turns(&mut block);
+        block
+    }
+
+    /// Takes the first `count` entries out, but for those that are `gone`, and with `more` in place of some.
+    fn take_out(&mut self, count: usize, gone: &Chosen, more: Vec<(u32, Vec<Entry>)>) -> Vec<Entry> {
+        if gone.is_empty() && self.fresh_pauses.is_empty() {
+            self.count_from(count, gone);
+            let later = self.entries.split_off(count);
+            return std::mem::replace(&mut self.entries, later);
         }
-        self.take_turns();
-        self.settle_passed();
+        let mut more = more.into_iter().peekable();
+        let mut block = Vec::with_capacity(count);
+        let mut pauses = self.fresh_pauses.drain(..).peekable();
+        for (index, entry) in (0_u32..).zip(self.entries.drain(..count)) {
+            let place = (self.settled.len() + block.len()) as u32;
+            while let Some((_, pause)) = pauses.next_if(|(at, _)| *at == index) {
+                self.pauses.push((place, pause));
+            }
+            if let Some((_, entries)) = more.next_if(|(at, _)| *at == index) {
+                block.extend(entries);
+            } else if !gone.contains(index) {
+                block.push(entry);
+            }
+        }
+        self.fresh_pauses = pauses.collect();
+        self.count_from(count, gone);
+        block
+    }
+
+    /// The first `count` entries are taken out: others are counted from the first that is left.
+    fn count_from(&mut self, count: usize, gone: &Chosen) {
+        let count = count as u32;
+        self.gone = gone.iter().filter_map(|index| index.checked_sub(count)).collect();
+        self.weak.iter_mut().for_each(|weak| weak.entry -= count);
+        self.fresh_pauses.iter_mut().for_each(|(entry, _)| *entry -= count);
+        for lane in &mut self.lanes {
+            lane.held.take_if(|held| !held.count_from(count));
+        }
     }
 
     /// `03 04 00 01 00 02` is a request of unit 3, or the answer to `03 00 01 00 02`: what was asked before tells.
@@ -266,7 +295,8 @@ impl Traffic {
         if !copies.is_empty() {
             gone.insert(one.entry);
             let copy = |span: Span| Entry {
-                at: whole.at + span.from as u32,
+                at: whole.at + span.from as u64,
+                written: whole.written.and_then(|written| written.behind(span.from)),
                 skip: whole.skip + span.from as u16,
                 length: span.len() as u16,
                 ..whole
@@ -289,24 +319,26 @@ impl Traffic {
     }
 
     /// Who speaks where request and response take turns.
-    fn take_turns(&mut self) {
+    fn take_turns(&self, block: &mut [Entry]) {
+        if !self.turns {
+            return;
+        }
         let leaning = |entry: &Entry| match entry.protocol().speaker {
             Speaker::Turns(leaning) => Some(leaning),
             _ => None,
         };
         let leanings: Vec<i32> =
-            self.entries.iter().filter_map(|entry| Some(leaning(entry)?(bytes(entry, &self.data)))).collect();
+            block.iter().filter_map(|entry| Some(leaning(entry)?(bytes(entry, &self.data)))).collect();
         let mut guesses = turns(&leanings).into_iter();
         let mut before: Option<(Span, Direction)> = None;
-        for index in 0..self.entries.len() {
-            let entry = self.entries[index];
+        for entry in block {
             let place = Span::new(entry.at as usize, entry.at as usize + usize::from(entry.length));
-            let Some(guess) = leaning(&entry).and_then(|_| guesses.next()) else { continue };
+            let Some(guess) = leaning(entry).and_then(|_| guesses.next()) else { continue };
             // A slave repeats what it wrote: byte for byte, where it sets the length, too.
             let repeats = before.is_some_and(|(asked, direction)| {
                 direction == Direction::Request
                     && asked.of(&self.data) == place.of(&self.data)
-                    && self.writes(&entry)
+                    && self.writes(entry)
             });
             let said = match entry.hint {
                 Hint::Says(direction) => Some(direction),
@@ -319,8 +351,7 @@ impl Traffic {
                 _ => guess.told(),
             };
             if let Some(direction) = told.filter(|_| self.direction.is_none()) {
-                self.entries[index].sides =
-                    [direction == Direction::Request, direction == Direction::Response];
+                entry.sides = [direction == Direction::Request, direction == Direction::Response];
             }
             before = Some((place, told.unwrap_or(guess.direction)));
         }
@@ -344,31 +375,18 @@ impl Traffic {
         more
     }
 
-    /// Lines that have a telegram were not passed.
-    fn settle_passed(&mut self) {
-        let lines: HashSet<u32> = if self.passed.is_empty() {
-            HashSet::new()
-        } else {
-            self.entries.iter().map(|entry| entry.line).collect()
-        };
-        self.passed.retain(|(line, _)| !lines.contains(line));
-        self.passed.sort_unstable();
-        self.passed.dedup();
-    }
-
     /// Where a person types nothing but telegrams, all of them together tell the protocol.
-    fn choose_typed(&mut self, weak: &mut [Weak]) {
+    fn choose_typed(&mut self, count: usize, weak: &mut [Weak]) {
         /// More are no typing.
         const MOST: usize = 10_000;
         /// So many bits speak for a protocol.
         const COMPANY: u32 = 5;
         /// And so many leave no doubt.
         const SURE: u32 = 16;
-        if self.entries.len() > MOST {
+        if count > MOST {
             return;
         }
-        let candidates: Vec<Candidate<'_>> = self
-            .entries
+        let candidates: Vec<Candidate<'_>> = self.entries[..count]
             .iter()
             .map(|entry| Candidate {
                 bytes: bytes(entry, &self.data),
@@ -428,7 +446,7 @@ impl Traffic {
         let own = bytes(entry, &self.data);
         let facts = &one.facts;
         // What one person types into an empty page is meant to be one.
-        let meant = one.read || self.entries.len() == 1 || self.settings.bus.is_some();
+        let meant = one.read || known.entries == 1 || self.settings.bus.is_some();
         if known.typed && meant && !facts.abridged {
             return true;
         }
@@ -563,15 +581,15 @@ impl Traffic {
     }
 
     /// Where the short frames of M-Bus and IEC 60870-5 were seen, frames like those of PROFIBUS are theirs, too.
-    fn take_out_foreign(&mut self, gone: &mut Chosen) {
-        let own = self.entries.iter().filter(|entry| {
+    fn take_out_foreign(&mut self, count: usize, gone: &mut Chosen) {
+        let own = self.entries[..count].iter().filter(|entry| {
             entry.protocol().is(&profibus_fdl::PROTOCOL)
                 && bytes(entry, &self.data).first() == Some(&profibus_fdl::SD1)
         });
         if (self.foreign_protocols[FT12] as usize) <= own.count() {
             return;
         }
-        for (index, entry) in (0_u32..).zip(&self.entries) {
+        for (index, entry) in (0_u32..).zip(&self.entries[..count]) {
             if entry.protocol().is(&profibus_fdl::PROTOCOL) {
                 gone.insert(index);
                 self.passed.push((entry.line, entry.offset));
@@ -584,9 +602,14 @@ impl Traffic {
 type Sided = (Vec<u8>, [bool; 2]);
 
 /// What the text as a whole says of what is without a proof: most of it by the telegrams that have one.
-struct Known {
+#[derive(Debug, Default)]
+pub(super) struct Known {
     /// Who typed it typed hardly anything but telegrams.
     typed: bool,
+    /// How many entries there are.
+    entries: usize,
+    /// How many without a proof look like telegrams.
+    read: usize,
     /// How many bits it takes.
     threshold: i32,
     /// Units with their functions.
@@ -598,36 +621,36 @@ struct Known {
 }
 
 impl Known {
-    fn of(traffic: &Traffic, weak: &[Weak], gone: &Chosen, typed: bool) -> Self {
+    /// Learns from the next `count` entries, of which these are `weak`.
+    fn learn(&mut self, traffic: &Traffic, count: usize, weak: &[Weak], gone: &Chosen, typed: bool) {
         /// More that begin alike are a log whose lines tell enough.
         const MOST: usize = 16;
-        let without = Chosen::of(traffic.entries.len(), weak.iter().map(|weak| weak.entry));
-        let mut known = Self {
-            typed,
-            threshold: evidence::threshold(weak.iter().filter(|weak| weak.read).count()),
-            seen: HashSet::new(),
-            families: [false; 3],
-            bodies: HashMap::new(),
-        };
-        for (index, entry) in (0_u32..).zip(&traffic.entries) {
+        /// And so are so many that begin in other ways.
+        const MOST_BEGINNINGS: usize = 1 << 14;
+        let without = Chosen::of(count, weak.iter().map(|weak| weak.entry));
+        self.typed = typed;
+        self.entries += count;
+        self.read += weak.iter().filter(|weak| weak.read).count();
+        self.threshold = evidence::threshold(self.read);
+        for (index, entry) in (0_u32..).zip(&traffic.entries[..count]) {
             if without.contains(index) || gone.contains(index) || entry.role == Role::Discarded {
                 continue;
             }
-            known.families[family(entry.protocol()) as usize] = true;
+            self.families[family(entry.protocol()) as usize] = true;
             if let Some(unit) = entry.unit {
-                known.seen.insert((unit, entry.function & !EXCEPTION));
+                self.seen.insert((unit, entry.function & !EXCEPTION));
             }
             let own = bytes(entry, &traffic.data);
             if let (true, Some(first)) = (entry.protocol().is(&modbus_rtu::PROTOCOL), own.first_chunk())
                 && entry.verdict == Verdict::Right
+                && (self.bodies.len() < MOST_BEGINNINGS || self.bodies.contains_key(first))
             {
-                let alike = known.bodies.entry(*first).or_default();
+                let alike = self.bodies.entry(*first).or_default();
                 if alike.len() < MOST && alike.iter().all(|(body, _)| body != own) {
                     alike.push((own.to_vec(), entry.sides));
                 }
             }
         }
-        known
     }
 
     /// The telegrams that begin as `own` does.

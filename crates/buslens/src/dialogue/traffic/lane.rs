@@ -1,6 +1,6 @@
 //! What waits for the rest of its telegram, and the chunks it came in.
 
-use super::entry::{Hint, NO_TIME};
+use super::entry::{Hint, NO_TIME, Written};
 use super::pieces::Held;
 use crate::field::Facts;
 use crate::frame::Protocol;
@@ -47,7 +47,8 @@ pub(super) struct Row {
     pub(super) hint: Hint,
     pub(super) port: u16,
     pub(super) line: u32,
-    pub(super) offset: u32,
+    pub(super) offset: u64,
+    pub(super) written: Option<Written>,
     pub(super) facts: Facts,
 }
 
@@ -91,6 +92,7 @@ impl Lane {
             port: 0,
             line: 0,
             offset: 0,
+            written: None,
             facts: Facts::default(),
         })
     }

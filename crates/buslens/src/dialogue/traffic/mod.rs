@@ -1,17 +1,23 @@
 //! The telegrams of a log: found, checked, and met with those that they answer.
 //!
-//! Bytes go in as [`Chunk`]s; a telegram is an [`Entry`] of 40 bytes and its bytes in one long run.
-//! Nothing is allocated for a single telegram, and everything takes linear time.
+//! Bytes go in as [`Chunk`]s and become [`Entry`]s. A block of these at a time is settled: judged, met, and packed
+//! into [`Entries`], after which their bytes are only in the file, where they can be read from it. Nothing is
+//! allocated for a single telegram, and everything takes linear time.
 
 mod collect;
 mod conversation;
+mod entries;
 mod entry;
 mod judge;
 mod lane;
+mod packed;
 mod pieces;
+mod settle;
 mod statistics;
 mod stream;
 
 pub use collect::{Chunk, Traffic};
-pub use entry::{Entry, Hint, Role};
+pub use entries::{Entries, Iter};
+pub use entry::{Entry, Hint, Role, Written};
+pub use settle::Lines;
 pub use statistics::{Dialog, Minutes, Statistics, latency, statistics};

@@ -32,6 +32,17 @@ pub(super) struct Held {
     age: usize,
 }
 
+impl Held {
+    /// Entries are counted from `first` on; `false` if it has one before.
+    pub fn count_from(&mut self, first: u32) -> bool {
+        let counted = self.entries.iter().all(|entry| *entry >= first);
+        if counted {
+            self.entries.iter_mut().for_each(|entry| *entry -= first);
+        }
+        counted
+    }
+}
+
 /// A telegram in a piece.
 pub(super) type Found = (usize, usize, &'static Protocol, Verdict);
 
@@ -71,20 +82,19 @@ impl Traffic {
     ) {
         let facts = row.facts;
         if self.by_hand && !facts.column && (!facts.rest || facts.bare) {
+            self.latest_piece.set(row, bytes);
             return self.all_by_hand(index, bytes);
         }
         if facts.column {
             return self.column(index, bytes, decimal, row);
         }
-        let twice = (self.latest_piece.0, self.latest_piece.2) == (row.line, row.hint)
-            && self.latest_piece.1 == bytes
-            && !facts.said;
+        let latest = &mut self.latest_piece;
+        let twice =
+            (latest.line, latest.hint) == (row.line, row.hint) && latest.bytes == bytes && !facts.said;
         if twice && row.line > 0 && bytes.len() > 1 {
             return;
         }
-        (self.latest_piece.0, self.latest_piece.2) = (row.line, row.hint);
-        self.latest_piece.1.clear();
-        self.latest_piece.1.extend_from_slice(bytes);
+        latest.set(row, bytes);
         if let Some(foreign) = FOREIGN.iter().position(|foreign| foreign.certain && (foreign.fits)(bytes)) {
             self.foreign_protocols[foreign] += 1;
             return self.passed.push((row.line, row.offset));
@@ -128,7 +138,7 @@ impl Traffic {
     /// the same lines, and pieces of the same line, can have the same telegrams.
     fn column(&mut self, index: usize, bytes: &[u8], decimal: &[u8], row: Row) {
         let known = self.entries.partition_point(|entry| entry.line < row.line);
-        let known: Vec<(u32, u16)> =
+        let known: Vec<(u64, u16)> =
             self.entries[known..].iter().map(|entry| (entry.at, entry.length)).collect();
         for reading in [bytes, decimal] {
             let mut found = Vec::new();

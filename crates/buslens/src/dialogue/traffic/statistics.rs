@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::collect::Traffic;
+use super::entries::Entries;
 use super::entry::{Entry, Role};
 use crate::field::Direction;
 use crate::frame::Verdict;
@@ -99,7 +100,7 @@ pub fn statistics(traffic: &Traffic) -> Statistics {
             Role::Plain | Role::Copy | Role::Discarded => {}
         }
         if entry.role != Role::Echo {
-            count(dialogs.of(entry), entry, entries);
+            count(dialogs.of(&entry), &entry, entries);
         }
     }
     let whole = all.times.map_or(0, |(first, last)| last - first);
@@ -136,7 +137,7 @@ impl Dialogs {
     }
 }
 
-fn count(gathered: &mut Gathered, entry: &Entry, entries: &[Entry]) {
+fn count(gathered: &mut Gathered, entry: &Entry, entries: &Entries) {
     let dialog = &mut gathered.dialog;
     dialog.telegrams += 1;
     dialog.requests += usize::from(entry.asks());
@@ -151,16 +152,15 @@ fn count(gathered: &mut Gathered, entry: &Entry, entries: &[Entry]) {
         && let Some(request) = entry.partner()
     {
         dialog.answered += 1;
-        if let Some(latency) = latency(entry, &entries[request]) {
+        if let Some(latency) = latency(entry.time(), entries.time(request)) {
             gathered.latencies.push(latency);
         }
     }
 }
 
-/// Microseconds between a response and its request.
-pub fn latency(response: &Entry, request: &Entry) -> Option<u32> {
-    let (answered, asked) = (response.time()?, request.time()?);
-    u32::try_from(answered - asked).ok()
+/// Microseconds between a response and its request, by their times.
+pub fn latency(answered: Option<i64>, asked: Option<i64>) -> Option<u32> {
+    u32::try_from(answered? - asked?).ok()
 }
 
 impl Gathered {

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 
 use super::list::brief;
-use super::{Entry, Log, Source};
+use super::{Log, Source};
 use crate::capture::{About, Writer};
 use crate::field::Direction;
 use crate::frame::{modbus_rtu, modbus_tcp};
@@ -35,7 +35,7 @@ impl CaptureFile {
     /// let mut file = CaptureFile::default();
     /// let bytes = [file.begin(), file.telegrams(&log, &text, &[0, 1], &Default::default())].concat();
     /// let again = Log::read(&bytes, &Reading::default(), Options::default()).unwrap();
-    /// assert_eq!(again.bytes(&again.entries()[1]), [0x01, 0x83, 0x02, 0xC0, 0xF1]);
+    /// assert_eq!(again.bytes(&&bytes[..], &again.entry(1))[..], [0x01, 0x83, 0x02, 0xC0, 0xF1]);
     /// ```
     pub fn telegrams(
         &mut self,
@@ -45,7 +45,8 @@ impl CaptureFile {
         notes: &BTreeMap<usize, String>,
     ) -> Vec<u8> {
         let entries = log.entries();
-        let counted = indices.iter().copied().filter(|index| entries.get(*index).is_some_and(Entry::counts));
+        let counted =
+            indices.iter().copied().filter(|index| entries.get(*index).is_some_and(|entry| entry.counts()));
         let counted: Vec<usize> = counted.collect();
         // A response says more when its request is known.
         let read = log.with_partners(counted.iter().copied());
@@ -54,13 +55,13 @@ impl CaptureFile {
         for index in counted {
             let comment = read.binary_search(&index).map(|place| comment(log, &report, place, notes));
             let comment = comment.unwrap_or_default();
-            let entry = &entries[index];
+            let entry = &log.entry(index);
             let about = About {
                 time: entry.time(),
                 from_client: Some(entry.direction == Direction::Request),
                 comment: &comment,
             };
-            let bytes = log.bytes(entry);
+            let bytes = &*log.bytes(source, entry);
             written.extend(match entry.protocol() {
                 protocol if protocol.is(&modbus_tcp::PROTOCOL) => {
                     let (client, server) = log.ends(entry.port);
@@ -84,7 +85,7 @@ fn comment(log: &Log, report: &Report, place: usize, notes: &BTreeMap<usize, Str
         return String::new();
     };
     let entry = telegram.number.checked_sub(1).and_then(|index| log.entries().get(index));
-    let state = entry.map(|entry| log.state(entry)).filter(|state| state.is_wrong());
+    let state = entry.map(|entry| log.state(&entry)).filter(|state| state.is_wrong());
     let parts = [
         state.map(|state| format!("[{}]", state.word())),
         Some(brief(&detail.said)),

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::{Entry, Finding, Log, Role, Source, State};
+use super::{Bytes, Entry, Finding, Log, Role, Source, State};
 use crate::field::Direction;
 use crate::tool::digest::{self, Digest, Line, MOST, Party};
 
@@ -10,7 +10,7 @@ impl Log {
     /// The log in short, with these of its [`findings`](Self::findings).
     pub fn digest(&self, source: &dyn Source, findings: &[Finding]) -> Digest {
         let overview = self.overview();
-        let (chosen, of) = self.that_matter(findings);
+        let (chosen, of) = self.that_matter(source, findings);
         let several = overview.ports.len() > 1;
         let units = overview.units.into_iter().map(|unit| {
             let name = unit.unit.map_or("The line".to_owned(), |unit| format!("Unit {unit}"));
@@ -42,7 +42,7 @@ impl Log {
     }
 
     fn in_a_line(&self, source: &dyn Source, index: u32, times: usize) -> Option<Line> {
-        let entry = &self.entries()[index as usize];
+        let entry = &self.entry(index as usize);
         if entry.role == Role::Discarded {
             let row = self.rows(source, &[index]).pop()?;
             return Some(Line {
@@ -54,7 +54,7 @@ impl Log {
                 state: row.state,
                 latency: None,
                 times,
-                bytes: self.bytes(entry).to_vec(),
+                bytes: self.bytes(source, entry).into_owned(),
                 faults: Vec::new(),
                 fields: Vec::new(),
             });
@@ -65,11 +65,12 @@ impl Log {
 
     /// The telegrams that a person should look at, with how often the same happened, and how many such there
     /// are: what shows the findings, then of each state what happened most.
-    fn that_matter(&self, findings: &[Finding]) -> (Vec<(u32, usize)>, usize) {
+    fn that_matter(&self, source: &dyn Source, findings: &[Finding]) -> (Vec<(u32, usize)>, usize) {
         let entries = self.entries();
-        let mut groups: HashMap<Event<'_>, (u32, usize)> = HashMap::new();
+        let mut bytes = Bytes::new(self, source);
+        let mut groups: HashMap<Event, (u32, usize)> = HashMap::new();
         for (entry, index) in entries.iter().zip(0_u32..) {
-            if let Some(event) = self.event(entry) {
+            if let Some(event) = self.event(&mut bytes, &entry) {
                 groups.entry(event).or_insert((index, 0)).1 += 1;
             }
         }
@@ -77,12 +78,12 @@ impl Log {
         let mut chosen: Vec<(u32, usize)> = Vec::new();
         // What is not wrong by itself shows something by what it became.
         let is_wrong =
-            |index: &&u32| entries.get(**index as usize).is_some_and(|entry| self.state(entry).is_wrong());
+            |index: &&u32| entries.get(**index as usize).is_some_and(|entry| self.state(&entry).is_wrong());
         let shown = findings
             .iter()
             .filter_map(|finding| finding.evidence.iter().find(is_wrong).or(finding.evidence.last()));
         for index in shown {
-            let event = entries.get(*index as usize).and_then(|entry| self.event(entry));
+            let event = entries.get(*index as usize).and_then(|entry| self.event(&mut bytes, &entry));
             let group = event.and_then(|event| groups.remove(&event)).unwrap_or((*index, 1));
             if chosen.len() < MOST && chosen.iter().all(|(other, _)| *other != group.0) {
                 chosen.push(group);
@@ -109,7 +110,7 @@ impl Log {
     }
 
     /// What happened with a telegram; `None` if nothing is wrong with it.
-    fn event(&self, entry: &Entry) -> Option<Event<'_>> {
+    fn event(&self, bytes: &mut Bytes<'_>, entry: &Entry) -> Option<Event> {
         let state = self.state(entry);
         if !state.is_wrong() {
             return None;
@@ -118,23 +119,28 @@ impl Log {
         let partner = entry.partner().filter(|_| entry.direction == Direction::Response);
         let asked = match (state, partner) {
             (State::Discarded, _) => &[],
-            (State::Damaged | State::Cut, _) | (_, None) => self.bytes(entry),
-            (_, Some(request)) => self.bytes(&self.entries()[request]),
+            (State::Damaged | State::Cut, _) | (_, None) => bytes.of(entry),
+            (_, Some(request)) => bytes.of(&self.entry(request)),
         };
         // Each request over Modbus TCP has a number of its own.
         let numbered = entry.protocol().waiting > 1 && state != State::Damaged;
         let asked = if numbered { asked.get(4..).unwrap_or_default() } else { asked };
-        Some(Event { state, port: entry.port, unit: entry.unit.filter(|_| state != State::Discarded), asked })
+        Some(Event {
+            state,
+            port: entry.port,
+            unit: entry.unit.filter(|_| state != State::Discarded),
+            asked: asked.to_vec(),
+        })
     }
 }
 
 /// What happened, and to which request.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-struct Event<'a> {
+#[derive(PartialEq, Eq, Hash)]
+struct Event {
     state: State,
     port: u16,
     unit: Option<u8>,
-    asked: &'a [u8],
+    asked: Vec<u8>,
 }
 
 const GRAVEST_FIRST: [State; 8] = [

@@ -73,7 +73,7 @@ impl Log {
     fn lines_of(&self, source: &dyn Source, index: usize, places: &[Span]) -> (String, Vec<(usize, usize)>) {
         const LONGEST: usize = 4096;
         const AFTER: usize = 200;
-        let entry = &self.entries()[index];
+        let entry = &self.entry(index);
         let (Some(first), Some(last)) = (places.first(), places.last()) else { return Default::default() };
         if entry.line == 0 {
             return Default::default();
@@ -189,7 +189,7 @@ mod tests {
                 let (report, place) = log.report_of(&text.as_bytes(), index);
                 let excerpt = log.excerpt(&text.as_bytes(), index);
                 let again = excerpt.report(&options);
-                assert_eq!(again.telegrams[excerpt.place].verdict, log.entries()[index].verdict);
+                assert_eq!(again.telegrams[excerpt.place].verdict, log.entry(index).verdict);
                 assert_eq!(report.detail(place), again.detail(excerpt.place));
                 assert!(excerpt.places.len() == report.telegrams[place].line.bytes.len());
                 assert!(text.contains(&excerpt.text) && !excerpt.text.is_empty());

@@ -1,7 +1,7 @@
 #[cfg(feature = "json")]
 use serde::{Deserialize, Serialize};
 
-use super::{Entry, Log, Role, Source, State};
+use super::{Bytes, Entry, Log, Role, Source, State};
 use crate::field::Direction;
 use crate::frame::{Speaker, Verdict};
 
@@ -107,7 +107,7 @@ enum Text {
     /// Registers, first and last.
     Registers(Vec<(u16, u16)>),
     /// Where lines of the file hold it.
-    Lines(Vec<u32>),
+    Lines(Vec<u64>),
 }
 
 impl Log {
@@ -115,7 +115,8 @@ impl Log {
     /// where the filter's text is neither bytes nor a register.
     pub fn filtered(&self, filter: &Filter, source: &dyn Source, size: u64) -> Vec<u32> {
         let text = self.meant(filter.text.trim(), source, size);
-        let lets = |index: usize, entry: &Entry| {
+        let mut bytes = Bytes::new(self, source);
+        let mut lets = |index: usize, entry: &Entry| {
             filter.port.is_none_or(|port| entry.port == port)
                 && filter.unit.is_none_or(|unit| entry.unit == Some(unit))
                 && filter.function.is_none_or(|function| entry.plain_function() == function && entry.counts())
@@ -128,11 +129,13 @@ impl Log {
                 && filter.places.is_none_or(|(from, to)| (from..=to).contains(&index))
                 && match &text {
                     Text::Any => true,
-                    Text::Bytes(bytes) => holds(self.bytes(entry), bytes),
-                    Text::Registers(ranges) => self.registers(entry).is_some_and(|(start, count)| {
-                        let last = start.saturating_add(count.saturating_sub(1));
-                        ranges.iter().any(|(from, to)| start <= *to && last >= *from)
-                    }),
+                    Text::Bytes(wanted) => holds(bytes.of(entry), wanted),
+                    Text::Registers(ranges) => {
+                        self.registers_in(&mut bytes, entry).is_some_and(|(start, count)| {
+                            let last = start.saturating_add(count.saturating_sub(1));
+                            ranges.iter().any(|(from, to)| start <= *to && last >= *from)
+                        })
+                    }
                     Text::Lines(offsets) => offsets.binary_search(&entry.offset).is_ok(),
                 }
         };
@@ -163,13 +166,18 @@ impl Log {
     }
 
     /// The first register of a telegram and their number; of a response, those of its request.
-    pub fn registers(&self, entry: &Entry) -> Option<(u16, u16)> {
+    pub fn registers(&self, source: &dyn Source, entry: &Entry) -> Option<(u16, u16)> {
+        self.registers_in(&mut Bytes::new(self, source), entry)
+    }
+
+    /// The same, where many are looked at.
+    pub(super) fn registers_in(&self, bytes: &mut Bytes<'_>, entry: &Entry) -> Option<(u16, u16)> {
         let request = match entry.direction {
-            Direction::Request => entry,
-            Direction::Response => &self.entries()[entry.partner()?],
+            Direction::Request => *entry,
+            Direction::Response => self.entry(entry.partner()?),
         };
         let Speaker::Pdu(inside) = request.protocol().speaker else { return None };
-        let (pdu, _) = inside(self.bytes(request));
+        let (pdu, _) = inside(bytes.of(&request));
         let number = |at: usize| pdu.get(at..at + 2).map(|pair| u16::from_be_bytes([pair[0], pair[1]]));
         match request.plain_function() {
             5 | 6 | 22 => Some((number(1)?, 1)),
@@ -179,7 +187,7 @@ impl Log {
     }
 
     /// Where the lines begin that hold `text`, in any letters.
-    fn lines_with(&self, text: &str, source: &dyn Source, size: u64) -> Vec<u32> {
+    fn lines_with(&self, text: &str, source: &dyn Source, size: u64) -> Vec<u64> {
         const PART: usize = 1 << 20;
         let text = text.to_lowercase().into_bytes();
         let size = self.transcoded.as_ref().map_or(size, |text| text.len() as u64);
@@ -187,10 +195,7 @@ impl Log {
         let (mut from, mut line_start) = (0_u64, 0_u64);
         let mut line: Vec<u8> = Vec::new();
         while from < size {
-            let part = match &self.transcoded {
-                Some(text) => (&text.as_slice()).read(from, PART),
-                None => source.read(from, PART),
-            };
+            let part = self.read_again(source, from, PART);
             if part.is_empty() {
                 break;
             }
@@ -198,7 +203,7 @@ impl Log {
                 from += 1;
                 if matches!(c, b'\n' | b'\r') {
                     if holds(&line, &text) {
-                        found.push(line_start as u32);
+                        found.push(line_start);
                     }
                     line.clear();
                     line_start = from;
@@ -208,7 +213,7 @@ impl Log {
             }
         }
         if holds(&line, &text) {
-            found.push(line_start as u32);
+            found.push(line_start);
         }
         found
     }

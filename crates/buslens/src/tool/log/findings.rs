@@ -211,7 +211,7 @@ impl Log {
             return evidence;
         }
         for (entry, index) in self.entries().iter().zip(0_u32..).filter(|(entry, _)| shows(entry)) {
-            if let Some(place) = places.get(&key(entry))
+            if let Some(place) = places.get(&key(&entry))
                 && evidence[*place].len() < EVIDENCE
             {
                 evidence[*place].push(index);
@@ -243,7 +243,7 @@ impl Log {
         }
         let units = self.units();
         let of_unit = |((port, unit), evidence): ((u16, Option<u8>), Vec<u32>)| {
-            let latency = |index: &u32| self.latency(&self.entries()[*index as usize]);
+            let latency = |index: &u32| self.latency(&self.entry(*index as usize));
             let least = evidence.iter().filter_map(latency).min()?;
             let usual = units.iter().find(|it| (it.port, it.unit) == (port, unit))?.median?;
             let who = unit.map_or("The server".to_owned(), |unit| format!("Unit {unit}"));
@@ -270,7 +270,7 @@ impl Log {
         const FEWEST: usize = 5;
         let median = self.statistics().dialogs.iter().filter_map(|dialog| dialog.median).min()?;
         let mut hasty = Vec::new();
-        let mut before: Option<&Entry> = None;
+        let mut before: Option<Entry> = None;
         for (entry, index) in self.entries().iter().zip(0_u32..).filter(|(entry, _)| entry.counts()) {
             let serial = entry.protocol().waiting == 1;
             if let (Some(earlier), Direction::Request, true) = (before, entry.direction, serial)
@@ -298,10 +298,7 @@ impl Log {
     /// Pauses within telegrams, where the log has times for their parts.
     fn of_pauses(&self) -> Option<Finding> {
         const FEWEST: usize = 3;
-        /// A pause that ends a telegram at 9600 baud is under 4 ms.
-        const LONG: u32 = 5000;
-        let long: Vec<&(u32, u32)> =
-            self.traffic.pauses().iter().filter(|(_, pause)| *pause > LONG).collect();
+        let long = self.traffic.pauses();
         let longest = long.iter().map(|(_, pause)| *pause).max()?;
         (long.len() >= FEWEST).then(|| Finding {
             code: "pauses-within",

@@ -54,10 +54,6 @@ impl Format {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
     Empty,
-    TooLarge {
-        size: u64,
-        most: u64,
-    },
     /// Its first bytes are those of a file of another kind.
     Foreign {
         name: &'static str,
@@ -75,15 +71,6 @@ impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Empty => write!(f, "The file is empty."),
-            Self::TooLarge { size, most } => {
-                let gigabytes = |bytes: &u64| *bytes as f64 / f64::from(1 << 30);
-                write!(
-                    f,
-                    "The file has {:.1} GB; at most {:.0} GB are read at once. Cut it into parts, at the ends of lines.",
-                    gigabytes(size),
-                    gigabytes(most)
-                )
-            }
             Self::Foreign { name, instead } => write!(f, "This is {name}, no log: {instead}."),
             Self::NoBytes { name, instead } => {
                 write!(f, "This is {name}. It names telegrams but does not hold their bytes: {instead}.")

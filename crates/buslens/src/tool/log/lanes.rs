@@ -72,9 +72,9 @@ impl Log {
             let at = if timed.is_some() { entry.time() } else { Some(index as i64) };
             let Some(at) = at.filter(|at| (from..=to).contains(at)) else { continue };
             let place = ((i128::from(at) - i128::from(from)) * stretches as i128 / span) as usize;
-            let state = self.state(entry);
-            let worst = if state == State::Slow { self.latency(entry) } else { None };
-            let marks = &mut lanes[lane_of(entry)].marks;
+            let state = self.state(&entry);
+            let worst = if state == State::Slow { self.latency(&entry) } else { None };
+            let marks = &mut lanes[lane_of(&entry)].marks;
             // Times may run backwards for a while.
             match marks.binary_search_by_key(&place, |mark| mark.at) {
                 Ok(known) => {

@@ -233,11 +233,11 @@ impl Log {
         let telegrams = indices.iter().map(|index| *index as usize).filter(|index| *index < entries.len());
         // A response says more when its request is known.
         let read =
-            self.with_partners(telegrams.clone().filter(|index| entries[*index].role != Role::Discarded));
+            self.with_partners(telegrams.clone().filter(|index| self.entry(*index).role != Role::Discarded));
         let report = self.report(source, &read);
         let row = |index: usize| {
-            let entry = &entries[index];
-            let before = index.checked_sub(1).and_then(|before| entries[before].time());
+            let entry = &self.entry(index);
+            let before = index.checked_sub(1).and_then(|before| entries.time(before));
             let place = read.binary_search(&index).ok();
             let said = place.and_then(|place| report.detail(place)).map(|detail| brief(&detail.said));
             Row {
@@ -247,7 +247,7 @@ impl Log {
                 unit: entry.unit.filter(|_| entry.role != Role::Discarded),
                 function: entry.plain_function(),
                 direction: (entry.role != Role::Discarded).then_some(entry.direction),
-                said: said.unwrap_or_else(|| self.discarded(entry)),
+                said: said.unwrap_or_else(|| self.discarded(source, entry)),
                 state: self.state(entry),
                 latency: self.latency(entry).filter(|_| entry.direction == Direction::Response),
             }
@@ -255,9 +255,9 @@ impl Log {
         telegrams.map(row).collect()
     }
 
-    fn discarded(&self, entry: &Entry) -> String {
+    fn discarded(&self, source: &dyn Source, entry: &Entry) -> String {
         const SHOWN: usize = 24;
-        let bytes = self.bytes(entry);
+        let bytes = self.bytes(source, entry);
         let more = if bytes.len() > SHOWN { " …" } else { "" };
         let count = Message::bytes(bytes.len());
         format!("{count} of no telegram: {}{more}", hex(&bytes[..bytes.len().min(SHOWN)]))

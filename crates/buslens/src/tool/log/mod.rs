@@ -1,8 +1,10 @@
 //! Whole logs: any layout, any size, read in pieces; what was said in them, and what went wrong.
 //!
-//! A [`Log`] keeps 40 bytes and the telegram's own bytes for each telegram. The tree of fields is
-//! made for those that somebody looks at, by [`Log::report`], which reads their lines again.
+//! A [`Log`] keeps some eight bytes for each telegram, and of small files the telegram's own; those of large files
+//! are read again. The tree of fields is made for those that somebody looks at, by [`Log::report`], which reads
+//! their lines again. While a file is read, all that is settled can be looked at: see [`Log::look`].
 
+mod bytes;
 #[cfg(feature = "captures")]
 mod capture_file;
 mod digest;
@@ -22,8 +24,9 @@ mod rows;
 mod seen;
 mod story;
 
-pub use crate::dialogue::traffic::{Dialog, Entry, Minutes, Role, Statistics};
+pub use crate::dialogue::traffic::{Dialog, Entries, Entry, Lines, Minutes, Role, Statistics};
 pub use crate::text::{LAYOUTS, Layout, Marks, Numbers, Place};
+pub use bytes::Bytes;
 #[cfg(feature = "captures")]
 pub use capture_file::CaptureFile;
 pub use excerpt::Excerpt;
@@ -38,13 +41,14 @@ pub use redact::{Hidden, Kind, Redacted, Replaced};
 pub use seen::{Seen, seen};
 pub use story::time_text;
 
+use std::cell::OnceCell;
 use std::collections::HashMap;
 
 use super::Options;
 use super::decode::Report;
 #[cfg(feature = "captures")]
 use crate::capture::{Capture, Fault, Segment};
-use crate::dialogue::traffic::{Chunk, Hint, Traffic, statistics};
+use crate::dialogue::traffic::{Chunk, Hint, Traffic, Written, statistics};
 use crate::dialogue::{self, Candidate, Choice};
 #[cfg(feature = "captures")]
 use crate::field::Facts;
@@ -110,21 +114,16 @@ pub struct Log {
     choice: Choice,
     input: Way,
     traffic: Traffic,
-    /// Unread lines: number and place.
-    unread: Vec<(u32, u32)>,
-    /// Its lines hold nothing but what should be telegrams.
-    typed: bool,
     ports: Ports,
     lines: u32,
     taken: u64,
-    size: u64,
     full: bool,
     /// A file in UTF-16, as it would be in UTF-8.
     transcoded: Option<Vec<u8>>,
     fault: Option<String>,
     statistics: Statistics,
     /// The telegrams that set up what others mean.
-    teaching: Vec<usize>,
+    teaching: OnceCell<Vec<usize>>,
 }
 
 /// How the bytes come out of the file.
@@ -213,8 +212,12 @@ pub fn decode(text: &str, options: Options) -> Report {
 /// What a file's beginning must hold at least, where the file has so much, for [`Log::open`].
 pub const BEGINNING: usize = 1 << 16;
 
-/// The largest file that is read.
-pub const LARGEST: u64 = 1 << 31;
+/// Of files up to this size all bytes of telegrams are kept: it does no harm when they are written to meanwhile.
+pub const SMALL: u64 = 32 << 20;
+
+/// So much memory is tried for before the next part of a large file is taken. A device that does not have it has
+/// just enough left to show what was read.
+const SPARE: usize = 48 << 20;
 
 impl Log {
     /// Begins to read a file of `size` bytes by its beginning, which is to be pushed all the same.
@@ -230,9 +233,6 @@ impl Log {
         mut options: Options,
     ) -> Result<Self, Refusal> {
         options.take_device();
-        if size > LARGEST {
-            return Err(Refusal::TooLarge { size, most: LARGEST });
-        }
         let (format, encoding) = format::tell(beginning, reading)?;
         let beginning = encoding.text(beginning);
         let numbers = reading.numbers.or(match format {
@@ -258,6 +258,12 @@ impl Log {
             traffic.by_hand();
         }
         traffic.directed(options.direction);
+        if size > SMALL {
+            traffic.leave_in_file();
+        }
+        if !is_text {
+            traffic.untyped();
+        }
         let reader = || Box::new(Reader::new(form.clone()));
         let input = match format {
             Format::Text { .. } if encoding.is_utf16() => {
@@ -280,17 +286,14 @@ impl Log {
             choice,
             input,
             traffic,
-            unread: Vec::new(),
-            typed: is_text,
             ports: Ports::default(),
             lines: 0,
             taken: 0,
-            size,
             full: false,
             transcoded,
             fault: None,
             statistics: Statistics::default(),
-            teaching: Vec::new(),
+            teaching: OnceCell::new(),
         })
     }
 
@@ -314,12 +317,9 @@ impl Log {
 
     /// Takes the next part of the file; `false` if no more can be kept.
     pub fn push(&mut self, part: &[u8]) -> bool {
-        let Self { input, traffic, unread, typed, ports, full, taken, transcoded, .. } = self;
-        let mut room = true;
-        let mut take = |event: Event<'_>| {
-            *typed &= is_typed(&event);
-            room &= self::take(event, traffic, unread, ports);
-        };
+        let Self { input, traffic, ports, full, taken, transcoded, .. } = self;
+        let mut room = *taken <= SMALL || Vec::<u8>::new().try_reserve_exact(SPARE).is_ok();
+        let mut take = |event: Event<'_>| room &= self::take(event, traffic, ports);
         match input {
             Way::Text(reader) => reader.push(part, &mut take),
             Way::Utf16 { reader, encoding, odd } => {
@@ -334,13 +334,13 @@ impl Log {
             }
             Way::Stream => {
                 // Browsers make code quick between two calls of it, not within one.
-                const PART: usize = 1 << 18;
+                const PART: usize = 1 << 16;
                 let mut before = *taken;
                 for bytes in part.chunks(PART) {
-                    let offset = before as u32;
-                    room &= traffic.take(Chunk { bytes, joins: true, offset, ..Chunk::default() });
+                    let written = Some(Written { from: 0, step: 1 });
+                    let chunk = Chunk { bytes, joins: true, offset: before, written, ..Chunk::default() };
+                    room &= traffic.take(chunk);
                     before += bytes.len() as u64;
-                    traffic.make_room(before, self.size);
                 }
             }
             #[cfg(feature = "captures")]
@@ -355,22 +355,27 @@ impl Log {
             }
             #[cfg(feature = "captures")]
             Way::Packets(packets) => {
-                packets.push(part, &mut |found| room &= take_of_packet(found, traffic, unread));
+                packets.push(part, &mut |found| room &= take_of_packet(found, traffic));
             }
         }
         *taken += part.len() as u64;
         *full |= !room;
-        self.traffic.make_room(self.taken, self.size);
         room
+    }
+
+    /// Counts what was settled so far, so that it can be looked at while the rest is read.
+    pub fn look(&mut self) {
+        self.statistics = statistics(&self.traffic);
+        self.teaching.take();
+        if let Way::Text(reader) | Way::Utf16 { reader, .. } = &self.input {
+            self.lines = reader.lines();
+        }
     }
 
     /// The file ends, or is not read any further.
     pub fn finish(&mut self) {
-        let Self { input, traffic, unread, typed, ports, transcoded, .. } = self;
-        let mut take = |event: Event<'_>| {
-            *typed &= is_typed(&event);
-            self::take(event, traffic, unread, ports);
-        };
+        let Self { input, traffic, ports, transcoded, .. } = self;
+        let mut take = |event: Event<'_>| _ = self::take(event, traffic, ports);
         if let Way::Utf16 { reader, encoding, odd } = input {
             // Half a character at the very end.
             let text = encoding.further(odd);
@@ -380,7 +385,6 @@ impl Log {
         match input {
             Way::Text(reader) | Way::Utf16 { reader, .. } => {
                 reader.finish(&mut take);
-                self.lines = reader.lines();
             }
             Way::Stream => {}
             #[cfg(feature = "captures")]
@@ -394,17 +398,13 @@ impl Log {
             }
             #[cfg(feature = "captures")]
             Way::Packets(packets) => {
-                let end = packets.finish(&mut |found| _ = take_of_packet(found, traffic, unread));
+                let end = packets.finish(&mut |found| _ = take_of_packet(found, traffic));
                 self.lines = packets.lines();
                 debug_assert!(end.is_ok(), "no file of packets was begun");
             }
         }
-        self.traffic.finish(self.typed);
-        self.unread.extend_from_slice(self.traffic.passed());
-        self.unread.sort_unstable();
-        self.unread.dedup();
-        self.statistics = statistics(&self.traffic);
-        self.find_lessons();
+        self.traffic.finish();
+        self.look();
     }
 
     /// How many directions of connections carry no telegrams.
@@ -441,18 +441,20 @@ impl Log {
         self.choice.protocol
     }
 
-    pub fn entries(&self) -> &[Entry] {
+    /// Its telegrams, as far as they are settled: all of them once it is [finished](Self::finish).
+    pub fn entries(&self) -> &Entries {
         self.traffic.entries()
     }
 
-    /// The bytes of an entry.
-    pub fn bytes(&self, entry: &Entry) -> &[u8] {
-        self.traffic.bytes(entry)
+    /// The telegram with this index. There must be one.
+    pub fn entry(&self, index: usize) -> Entry {
+        let entry = self.traffic.entries().get(index);
+        entry.unwrap_or_else(|| panic!("telegram {index} of {}", self.entries().len()))
     }
 
     /// Unread lines: number and place in the file.
-    pub fn unread(&self) -> &[(u32, u32)] {
-        &self.unread
+    pub fn unread(&self) -> &Lines {
+        self.traffic.lines()
     }
 
     /// How many lines the file has.
@@ -468,7 +470,9 @@ impl Log {
     pub fn fault(&self) -> Option<String> {
         let more = self.full && self.fault.is_none();
         self.fault.clone().or_else(|| {
-            more.then(|| "The log has more telegrams than can be kept: the rest was not read.".into())
+            more.then(|| {
+                "This device has not enough memory for all of the log: the rest was not read.".into()
+            })
         })
     }
 
@@ -485,7 +489,7 @@ impl Log {
     /// How many bytes of memory it takes.
     pub fn memory(&self) -> usize {
         let transcoded = self.transcoded.as_ref().map_or(0, Vec::capacity);
-        self.traffic.memory() + self.unread.capacity() * size_of::<(u32, u32)>() + transcoded
+        self.traffic.memory() + transcoded
     }
 }
 
@@ -505,11 +509,14 @@ fn is_typed(event: &Event<'_>) -> bool {
 }
 
 /// Takes what was found in a text; `false` if no more telegrams can be kept.
-fn take(event: Event<'_>, traffic: &mut Traffic, unread: &mut Vec<(u32, u32)>, ports: &mut Ports) -> bool {
+fn take(event: Event<'_>, traffic: &mut Traffic, ports: &mut Ports) -> bool {
+    if !is_typed(&event) {
+        traffic.untyped();
+    }
     let piece = match event {
         Event::Piece(piece) => piece,
         Event::Unread { line, offset } => {
-            unread.push((line, offset as u32));
+            traffic.pass(line, offset);
             return true;
         }
     };
@@ -522,7 +529,8 @@ fn take(event: Event<'_>, traffic: &mut Traffic, unread: &mut Vec<(u32, u32)>, p
         both_ways: false,
         known_port: false,
         line: piece.line,
-        offset: piece.offset as u32,
+        offset: piece.offset,
+        written: piece.pairs.and_then(|(from, step)| Some(Written { from: u32::try_from(from).ok()?, step })),
         facts: Some(piece.facts),
         decimal: piece.decimal,
         breaks: piece.breaks,
@@ -531,11 +539,11 @@ fn take(event: Event<'_>, traffic: &mut Traffic, unread: &mut Vec<(u32, u32)>, p
 
 /// Takes what was found in dumps of packets; `false` if no more telegrams can be kept.
 #[cfg(feature = "captures")]
-fn take_of_packet(found: packets::Found<'_>, traffic: &mut Traffic, unread: &mut Vec<(u32, u32)>) -> bool {
+fn take_of_packet(found: packets::Found<'_>, traffic: &mut Traffic) -> bool {
     match found {
         packets::Found::Segment(segment) => traffic.take(of_segment(&segment)),
         packets::Found::Unread { line, offset } => {
-            unread.push((line, offset as u32));
+            traffic.pass(line, offset);
             true
         }
     }
@@ -555,7 +563,7 @@ fn of_segment<'a>(segment: &Segment<'a>) -> Chunk<'a> {
             hint: sent.map_or(Hint::None, |sent| if sent { Hint::Logger } else { Hint::Other }),
             port: u16::try_from(segment.connection).unwrap_or(u16::MAX),
             line: segment.line,
-            offset: segment.offset as u32,
+            offset: segment.offset,
             // Nothing stands in the packet but the telegram.
             facts: Some(Facts { bare: true, ..Facts::default() }),
             ..Chunk::default()
@@ -571,7 +579,7 @@ fn of_segment<'a>(segment: &Segment<'a>) -> Chunk<'a> {
         both_ways: true,
         known_port: segment.ports.contains(&MODBUS),
         line: segment.line,
-        offset: segment.offset as u32,
+        offset: segment.offset,
         ..Chunk::default()
     }
 }

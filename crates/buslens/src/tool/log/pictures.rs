@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::filter::is_error;
-use super::{Entry, Log, Source};
+use super::{Bytes, Entry, Log, Source};
 use crate::field::Direction;
 
 /// A log cut into equal stretches.
@@ -73,8 +73,10 @@ impl Log {
             }
         };
         match chosen {
-            Some(chosen) => chosen.iter().for_each(|index| add(*index as usize, &entries[*index as usize])),
-            None => entries.iter().enumerate().for_each(|(index, entry)| add(index, entry)),
+            Some(chosen) => {
+                chosen.iter().for_each(|index| add(*index as usize, &self.entry(*index as usize)));
+            }
+            None => entries.iter().enumerate().for_each(|(index, entry)| add(index, &entry)),
         }
         let average = |(bucket, sum, answers): (Bucket, u64, u64)| Bucket {
             latency: (answers > 0).then(|| (sum / answers) as u32),
@@ -87,14 +89,16 @@ impl Log {
     /// them. Where the device's manual knows what stands there, its value is meant, else the number
     /// in the register.
     pub fn series(&self, source: &dyn Source, unit: Option<u8>, address: u16, most: usize) -> Vec<Point> {
-        let holds = |entry: &Entry| {
+        let mut bytes = Bytes::new(self, source);
+        let mut holds = |entry: &Entry| {
             let right = entry.unit == unit && entry.counts() && !entry.refuses();
-            let inside = self.registers(entry).is_some_and(|(start, count)| {
-                address >= start && usize::from(address - start) < usize::from(count)
-            });
             // What is read stands in the response, what is written in the request.
             let reads = matches!(entry.function, 3 | 4 | 100);
-            right && inside && reads == (entry.direction == Direction::Response)
+            right
+                && reads == (entry.direction == Direction::Response)
+                && self.registers_in(&mut bytes, entry).is_some_and(|(start, count)| {
+                    address >= start && usize::from(address - start) < usize::from(count)
+                })
         };
         let found: Vec<usize> = self
             .entries()
@@ -105,7 +109,7 @@ impl Log {
             .collect();
         let step = found.len().div_ceil(most.max(1)).max(1);
         let point = |index: &usize| {
-            let entry = &self.entries()[*index];
+            let entry = self.entry(*index);
             Some(Point { index: *index, time: entry.time(), value: self.value(source, *index, address)? })
         };
         found.iter().step_by(step).filter_map(point).collect()
@@ -117,6 +121,7 @@ impl Log {
         /// Each has registers of its own; a log that asks for more of them is not one that is looked through.
         const RANGES: usize = 200;
         let mut ranges: BTreeMap<(Option<u8>, u16, u16), usize> = BTreeMap::new();
+        let mut bytes = Bytes::new(self, source);
         for (index, entry) in self.entries().iter().enumerate() {
             let carries = match entry.direction {
                 Direction::Response => matches!(entry.function, 3 | 4 | 100) && !entry.refuses(),
@@ -125,7 +130,7 @@ impl Log {
             if carries
                 && entry.counts()
                 && ranges.len() < RANGES
-                && let Some((start, count)) = self.registers(entry)
+                && let Some((start, count)) = self.registers_in(&mut bytes, &entry)
             {
                 ranges.entry((entry.unit, start, count)).or_insert(index);
             }

@@ -1,6 +1,6 @@
 //! Where the bytes of telegrams stand in the text of a log: its lines are read again.
 
-use super::{Entry, Log, Source, Way};
+use super::{Bytes, Entry, Log, Source, Way};
 use crate::field::Span;
 use crate::frame::modbus_ascii;
 use crate::text::{self, Event, Piece, Reader, Remark};
@@ -9,13 +9,14 @@ use crate::text::{self, Event, Piece, Reader, Remark};
 pub(super) struct Places<'a> {
     log: &'a Log,
     source: &'a dyn Source,
+    pub bytes: Bytes<'a>,
     /// What was read last.
     part: Option<Part>,
 }
 
 /// Lines from the beginning of one on, with their pieces.
 struct Part {
-    offset: u32,
+    offset: u64,
     text: Vec<u8>,
     pieces: Vec<Kept>,
     /// The piece that the last telegram began in: the next one begins there, if bytes of others come
@@ -60,7 +61,7 @@ impl Kept {
 
 impl<'a> Places<'a> {
     pub fn new(log: &'a Log, source: &'a dyn Source) -> Self {
-        Self { log, source, part: None }
+        Self { log, source, bytes: Bytes::new(log, source), part: None }
     }
 
     /// The places of a telegram's bytes, and what in a line of bytes is none.
@@ -68,7 +69,7 @@ impl<'a> Places<'a> {
         /// A line of a telegram has hardly more.
         const PART: usize = 4096;
         const MOST: usize = 1 << 18;
-        let bytes = self.log.bytes(entry);
+        let bytes = &*self.bytes.of(entry).to_vec();
         // Mostly its line was read with those before it.
         if let Some(part) = self.part.as_mut().filter(|part| part.covers(entry)) {
             let found = part.search(entry, bytes);
@@ -90,12 +91,9 @@ impl<'a> Places<'a> {
 
     /// Reads the lines from that of `entry` on; `None` where the log has none.
     fn read(&self, entry: &Entry, wanted: usize) -> Option<Part> {
-        let offset = u64::from(entry.offset);
-        let text = match (&self.log.transcoded, &self.log.input) {
-            (Some(text), _) => (&text.as_slice()).read(offset, wanted),
-            (None, Way::Text(_)) => self.source.read(offset, wanted),
-            _ => return None,
-        };
+        let (Way::Text(_) | Way::Utf16 { .. }) = self.log.input else { return None };
+        let offset = entry.offset;
+        let text = self.log.read_again(self.source, offset, wanted);
         let mut pieces = Vec::new();
         let mut reader = Reader::starting_at(self.log.form.clone(), offset, entry.line);
         let mut take = |event: Event<'_>| {
@@ -105,14 +103,14 @@ impl<'a> Places<'a> {
         };
         reader.push(&text, &mut take);
         reader.finish(&mut take);
-        Some(Part { offset: entry.offset, text, pieces, last: None })
+        Some(Part { offset, text, pieces, last: None })
     }
 }
 
 impl Part {
     /// Whether the line of `entry` is among those that were read.
     fn covers(&self, entry: &Entry) -> bool {
-        (self.offset..self.offset.saturating_add(self.text.len() as u32)).contains(&entry.offset)
+        (self.offset..self.offset + self.text.len() as u64).contains(&entry.offset)
     }
 
     /// The places of the bytes of `entry`, as far as they are there.

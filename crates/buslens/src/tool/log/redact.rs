@@ -124,12 +124,12 @@ impl Log {
         for part in indices.chunks(AT_ONCE) {
             let report = self.report(source, part);
             for (place, index) in part.iter().enumerate() {
-                let entry = &self.entries()[*index];
+                let entry = &self.entry(*index);
                 if entry.role == Role::Discarded {
                     redacted.unread += usize::from(entry.length);
                 }
                 let Some(telegram) = report.telegrams.get(place) else { continue };
-                let bytes = desk.telegram(self, entry, &report, place);
+                let bytes = desk.telegram(entry, &report, place);
                 if redacted.is_capture {
                     if entry.counts() {
                         redacted.file.extend(self.packet(entry, &bytes, &mut writer));
@@ -192,10 +192,7 @@ impl Log {
         (mut edits, taken): (Vec<(Span, Vec<u8>)>, &[Span]),
         file: &mut Vec<u8>,
     ) -> usize {
-        let read = |from: u64| match &self.transcoded {
-            Some(text) => (&text.as_slice()).read(from, PART),
-            None => source.read(from, PART),
-        };
+        let read = |from: u64| self.read_again(source, from, PART);
         let is_text = !matches!(self.format, Format::Stream);
         edits.sort_unstable();
         edits.dedup();
@@ -401,8 +398,8 @@ impl<'a> Desk<'a> {
     }
 
     /// The bytes of a telegram without what is to be hidden.
-    fn telegram(&mut self, log: &Log, entry: &Entry, report: &Report, place: usize) -> Vec<u8> {
-        let old = log.bytes(entry);
+    fn telegram(&mut self, entry: &Entry, report: &Report, place: usize) -> Vec<u8> {
+        let old = &report.telegrams[place].line.bytes;
         let mut bytes = old.to_vec();
         if entry.role == Role::Discarded {
             return bytes;
@@ -451,7 +448,7 @@ impl<'a> Desk<'a> {
                 from = span.to;
             }
         }
-        if bytes != old {
+        if bytes != *old {
             repair(protocol.key, &leaves, old, &mut bytes);
             if damaged && protocol.is(&modbus_rtu::PROTOCOL) && self.explained < MOST_EXPLAINED {
                 self.explained += 1;

@@ -1,7 +1,7 @@
 //! Telegrams of a log read as far as anywhere else: with all their fields.
 
 use super::places::Places;
-use super::{Entry, Format, Log, Role, Source, State, time_text};
+use super::{Bytes, Entry, Format, Log, Role, Source, State, time_text};
 use crate::dialogue::traffic::latency;
 use crate::dialogue::{self, Candidate, Certainty, Choice, Guess};
 use crate::field::{Direction, Span};
@@ -15,7 +15,7 @@ impl Log {
     /// know each other where both are among them; what telegrams before them said of how the devices
     /// are set up is known.
     pub fn report(&self, source: &dyn Source, indices: &[usize]) -> Report {
-        let lessons = self.lessons(indices);
+        let lessons = self.lessons(source, indices);
         let all: Vec<usize> = lessons.iter().chain(indices).copied().collect();
         // Each part is in the log's order, unless a person chose otherwise.
         let ordered = indices.is_sorted();
@@ -29,7 +29,7 @@ impl Log {
             let entry = self.entries().get(*index)?;
             let partner = entry.partner().and_then(place);
             let number = partner.map(|place| all[place] + 1);
-            let mut telegram = Telegram { number: index + 1, ..self.telegram(entry, &mut places, number) };
+            let mut telegram = Telegram { number: index + 1, ..self.telegram(&entry, &mut places, number) };
             match entry.direction {
                 Direction::Request => telegram.answered_by = partner,
                 Direction::Response => telegram.answers = partner,
@@ -50,7 +50,7 @@ impl Log {
 
     /// The telegrams `indices` and those that answer them or that they answer, in the log's order.
     pub fn with_partners(&self, indices: impl Iterator<Item = usize>) -> Vec<usize> {
-        let partner = |index: usize| self.entries()[index].partner();
+        let partner = |index: usize| self.entries().get(index).and_then(|entry| entry.partner());
         let mut all: Vec<usize> = indices.flat_map(|index| [Some(index), partner(index)]).flatten().collect();
         all.sort_unstable();
         all.dedup();
@@ -66,7 +66,7 @@ impl Log {
         let modbus = matches!(entry.protocol().speaker, Speaker::Pdu(_));
         let first = if modbus { index } else { index.saturating_sub(CYCLES) };
         let same = |other: &usize| {
-            let other = &self.entries()[*other];
+            let other = self.entry(*other);
             other.counts() && (other.port, other.unit) == (entry.port, entry.unit)
         };
         let mut context: Vec<usize> =
@@ -125,7 +125,7 @@ impl Log {
             telegram.line.remarks.clear();
         }
         let lines = self.unread().iter().take(MOST_LINES).map(|(number, offset)| {
-            let from = *offset as usize;
+            let from = offset as usize;
             let line = text.get(from..).unwrap_or_default();
             let line = line.split(['\n', '\r']).next().unwrap_or_default();
             let span = Span::new(from, from + line.len());
@@ -136,7 +136,7 @@ impl Log {
                 None => Vec::new(),
             };
             said += remarks.len();
-            Line { number: *number as usize, span, remarks, ..Line::default() }
+            Line { number: number as usize, span, remarks, ..Line::default() }
         });
         let lines: Vec<Line> = lines.collect();
         report.not_understood = lines;
@@ -144,24 +144,25 @@ impl Log {
     }
 
     /// Writes that set up what others mean, before the first of `indices`, with their responses.
-    fn lessons(&self, indices: &[usize]) -> &[usize] {
+    fn lessons(&self, source: &dyn Source, indices: &[usize]) -> &[usize] {
         /// Older ones were written over, or the device has forgotten them.
         const MOST: usize = 200;
         let first = indices.iter().copied().min().unwrap_or_default();
-        let before = self.teaching.partition_point(|index| *index < first);
-        &self.teaching[before.saturating_sub(MOST)..before]
+        let teaching = self.teaching.get_or_init(|| self.find_lessons(source));
+        let before = teaching.partition_point(|index| *index < first);
+        &teaching[before.saturating_sub(MOST)..before]
     }
 
     /// Finds the writes that set up what others mean, for the device that is chosen.
-    pub(super) fn find_lessons(&mut self) {
+    fn find_lessons(&self, source: &dyn Source) -> Vec<usize> {
         if self.options.devices().next().is_none() {
-            self.teaching.clear();
-            return;
+            return Vec::new();
         }
-        let teaches = |entry: &Entry| {
+        let mut bytes = Bytes::new(self, source);
+        let mut teaches = |entry: &Entry| {
             matches!(entry.function, 6 | 16 | 100 | 101)
                 && entry.direction == Direction::Request
-                && self.registers(entry).is_some_and(|(start, count)| {
+                && self.registers_in(&mut bytes, entry).is_some_and(|(start, count)| {
                     let device = self.options.device_of(entry.unit);
                     device.is_some_and(|device| {
                         (start..=start.saturating_add(count)).any(|address| device.teaches(address))
@@ -175,14 +176,14 @@ impl Log {
             found.push(index);
         }
         found.sort_unstable();
-        self.teaching = found;
+        found
     }
 
     /// Takes the bytes for those of another device, or of one that is set up in another way.
     pub fn set_options(&mut self, options: Options) {
         self.options = Options { protocol: self.options.protocol, ..options };
         self.options.take_device();
-        self.find_lessons();
+        self.teaching.take();
     }
 
     /// A telegram as an entry; its partner has this `number`.
@@ -192,7 +193,7 @@ impl Log {
             number: 0,
             unit: entry.unit,
             choice: self.choice_of(entry, &line),
-            guess: self.guess(entry, number),
+            guess: self.guess(entry, &line.bytes, places, number),
             verdict: entry.verdict,
             answers: None,
             answered_by: None,
@@ -231,7 +232,7 @@ impl Log {
 
     /// Who speaks, and why: by the bytes, and where those leave it open, by what the text says and by the
     /// telegram that it answers or that answers it, which has this `number`.
-    fn guess(&self, entry: &Entry, number: Option<usize>) -> Guess {
+    fn guess(&self, entry: &Entry, bytes: &[u8], places: &mut Places<'_>, number: Option<usize>) -> Guess {
         let direction = entry.direction;
         let guess = |certainty, reason| Guess { direction, certainty, reason };
         if self.options.direction == Some(direction) {
@@ -245,7 +246,6 @@ impl Log {
             return guess(Certainty::Likely, message!("the same was asked just before, without an answer"));
         }
         let protocol = entry.protocol();
-        let bytes = self.bytes(entry);
         let own = match protocol.speaker {
             Speaker::Pdu(inside) => {
                 let (pdu, around) = inside(bytes);
@@ -270,7 +270,7 @@ impl Log {
         if own.certainty != Certainty::Open && own.direction == direction && !(turns && number.is_some()) {
             return own;
         }
-        let asked = entry.partner().map(|partner| self.bytes(&self.entries()[partner]));
+        let asked = entry.partner().map(|partner| places.bytes.of(&self.entry(partner)));
         match (number, direction) {
             (Some(_), Direction::Response) if turns && asked == Some(bytes) => {
                 guess(Certainty::Likely, message!("it repeats the request before it, as a confirmation does"))
@@ -302,16 +302,16 @@ impl Log {
 
     /// Microseconds between a response and its request.
     pub fn latency(&self, entry: &Entry) -> Option<u32> {
-        let partner = &self.entries()[entry.partner()?];
+        let (own, partner) = (entry.time(), self.entries().time(entry.partner()?));
         match entry.direction {
-            Direction::Request => latency(partner, entry),
-            Direction::Response => latency(entry, partner),
+            Direction::Request => latency(partner, own),
+            Direction::Response => latency(own, partner),
         }
     }
 
     /// The bytes of a telegram with their places in the file.
     fn line(&self, entry: &Entry, places: &mut Places<'_>) -> Line {
-        let bytes = self.bytes(entry).to_vec();
+        let bytes = places.bytes.of(entry).to_vec();
         let number = entry.line as usize;
         if entry.line == 0 {
             let from = entry.offset as usize;
@@ -332,18 +332,15 @@ impl Log {
     }
 
     /// The line of the file that begins at `offset`, as text.
-    pub fn text_at(&self, source: &dyn Source, offset: u32, length: usize) -> String {
+    pub fn text_at(&self, source: &dyn Source, offset: u64, length: usize) -> String {
         let text = self.piece_at(source, offset, length);
         text.split(['\n', '\r']).next().unwrap_or_default().to_owned()
     }
 
     /// Up to `length` bytes of the file from `offset` on, as text; each byte that is no UTF-8 is one
     /// character of ASCII in it, so that places stay as they are.
-    pub fn piece_at(&self, source: &dyn Source, offset: u32, length: usize) -> String {
-        let bytes = match &self.transcoded {
-            Some(text) => (&text.as_slice()).read(offset.into(), length),
-            None => source.read(offset.into(), length),
-        };
+    pub fn piece_at(&self, source: &dyn Source, offset: u64, length: usize) -> String {
+        let bytes = self.read_again(source, offset, length);
         let mut text = String::with_capacity(bytes.len());
         for chunk in bytes.utf8_chunks() {
             text.push_str(chunk.valid());

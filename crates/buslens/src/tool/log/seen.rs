@@ -142,11 +142,11 @@ impl Log {
         let mut seen: BTreeMap<Tells, (usize, Vec<u32>)> = BTreeMap::new();
         if matches!(self.format, Format::Text { .. }) {
             for (number, offset) in self.unread().iter().take(MOST) {
-                if let Some(tells) = Tells::of(&self.text_at(source, *offset, LONGEST)) {
+                if let Some(tells) = Tells::of(&self.text_at(source, offset, LONGEST)) {
                     let (count, lines) = seen.entry(tells).or_default();
                     *count += 1;
                     if lines.len() < SHOWN {
-                        lines.push(*number);
+                        lines.push(number);
                     }
                 }
             }

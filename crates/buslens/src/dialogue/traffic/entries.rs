@@ -1,0 +1,313 @@
+//! The telegrams that nothing changes any more, in as little room as possible: a log can have many millions.
+//!
+//! Of each, that are a few bytes. Its own bytes are read again from the file where they stand there as they are,
+//! or as pairs of hex digits at equal distances; others are kept.
+
+use super::entry::{Entry, Hint, NO_TIME, NOBODY, Role, Written};
+use super::packed::{Packed, Rows};
+use crate::field::Direction;
+use crate::frame::Verdict;
+
+/// The telegrams of a log.
+#[derive(Debug, Default)]
+pub struct Entries {
+    rows: Packed<COLUMNS>,
+    kept: Kept,
+    /// The last time that was told.
+    time: i64,
+}
+
+/// Time, offset, line, bytes of others before it in that, distance to its partner, port, kind, place among the
+/// bytes that are kept, and how its bytes are written.
+const COLUMNS: usize = 9;
+const TIME: usize = 0;
+const KIND: usize = 6;
+
+impl Entries {
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    pub fn get(&self, index: usize) -> Option<Entry> {
+        Some(unpack(index, self.rows.get(index)?))
+    }
+
+    /// The time of an entry, if it has one.
+    pub fn time(&self, index: usize) -> Option<i64> {
+        let [time, kind] = self.rows.numbers(index, [TIME, KIND])?;
+        (kind & 1 == 1).then_some(time as i64)
+    }
+
+    /// All of them in their order. That is quicker than one by one.
+    pub fn iter(&self) -> Iter<'_> {
+        Iter { rows: self.rows.iter(), index: 0 }
+    }
+
+    /// The bytes of an entry, if they are kept.
+    pub fn kept(&self, entry: &Entry) -> Option<&[u8]> {
+        entry.written.is_none().then(|| self.kept.get(entry.at, usize::from(entry.length)))
+    }
+
+    /// How many bytes of memory they take.
+    pub fn memory(&self) -> usize {
+        self.rows.memory() + self.kept.blocks.iter().map(Vec::capacity).sum::<usize>()
+    }
+
+    pub(super) fn push(&mut self, entry: &Entry, bytes: &[u8]) {
+        let at = match entry.written {
+            Some(_) => self.kept.end(),
+            None => self.kept.push(bytes),
+        };
+        // Where no time is told, the one before needs no room.
+        if entry.time != NO_TIME {
+            self.time = entry.time;
+        }
+        self.rows.push(pack(self.len(), &Entry { at, ..*entry }, self.time));
+    }
+
+    /// Another partner, or who speaks, turned out to be another.
+    pub(super) fn set(&mut self, index: usize, entry: &Entry) {
+        if let Some(before) = self.rows.get(index) {
+            self.rows.set(index, pack(index, entry, before[TIME] as i64));
+        }
+    }
+}
+
+impl PartialEq for Entries {
+    fn eq(&self, other: &Self) -> bool {
+        self.iter().eq(other.iter())
+    }
+}
+
+impl<'a> IntoIterator for &'a Entries {
+    type Item = Entry;
+    type IntoIter = Iter<'a>;
+
+    fn into_iter(self) -> Iter<'a> {
+        self.iter()
+    }
+}
+
+/// The telegrams of [`Entries`].
+#[derive(Clone)]
+pub struct Iter<'a> {
+    rows: Rows<'a, COLUMNS>,
+    index: usize,
+}
+
+impl Iterator for Iter<'_> {
+    type Item = Entry;
+
+    #[inline]
+    fn next(&mut self) -> Option<Entry> {
+        let entry = unpack(self.index, self.rows.next()?);
+        self.index += 1;
+        Some(entry)
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        self.rows.size_hint()
+    }
+}
+
+impl ExactSizeIterator for Iter<'_> {}
+
+/// Bytes in blocks of which each is allocated once.
+#[derive(Debug, Default)]
+struct Kept {
+    blocks: Vec<Vec<u8>>,
+}
+
+impl Kept {
+    /// More than the longest entry has.
+    const BLOCK: usize = 1 << 17;
+
+    /// Where the next bytes would be.
+    fn end(&self) -> u64 {
+        self.blocks.last().map_or(0, |last| ((self.blocks.len() - 1) * Self::BLOCK + last.len()) as u64)
+    }
+
+    /// Keeps bytes; returns where.
+    fn push(&mut self, bytes: &[u8]) -> u64 {
+        if self.blocks.last().is_none_or(|last| last.len() + bytes.len() > Self::BLOCK) {
+            // Few logs have more than one.
+            self.blocks.push(if self.blocks.is_empty() {
+                Vec::new()
+            } else {
+                Vec::with_capacity(Self::BLOCK)
+            });
+        }
+        let at = self.end();
+        if let Some(last) = self.blocks.last_mut() {
+            last.extend_from_slice(bytes);
+        }
+        at
+    }
+
+    fn get(&self, at: u64, length: usize) -> &[u8] {
+        let (block, at) = (at as usize / Self::BLOCK, at as usize % Self::BLOCK);
+        self.blocks.get(block).and_then(|block| block.get(at..at + length)).unwrap_or_default()
+    }
+}
+
+/// An entry as numbers that are small, or much like those of its neighbours.
+fn pack(index: usize, entry: &Entry, time: i64) -> [u64; COLUMNS] {
+    let partner = match entry.partner {
+        NOBODY => 0,
+        // Those behind it are even.
+        partner => match i64::from(partner) - index as i64 {
+            behind @ 1.. => 2 * behind as u64,
+            before => 2 * before.unsigned_abs() + 1,
+        },
+    };
+    let written = entry.written.map_or(0, |written| u64::from(written.from) << 8 | u64::from(written.step));
+    [
+        time as u64,
+        entry.offset,
+        entry.line.into(),
+        entry.skip.into(),
+        partner,
+        entry.port.into(),
+        kind(entry),
+        entry.at,
+        written,
+    ]
+}
+
+fn unpack(index: usize, row: [u64; COLUMNS]) -> Entry {
+    let [time, offset, line, skip, partner, port, kind, at, written] = row;
+    let bit = |at: u32| kind >> at & 1 == 1;
+    let number = |at: u32, bits: u32| (kind >> at) as usize & ((1 << bits) - 1);
+    Entry {
+        time: if bit(0) { time as i64 } else { NO_TIME },
+        at,
+        offset,
+        written: (written != 0).then_some(Written { from: (written >> 8) as u32, step: written as u8 }),
+        line: line as u32,
+        skip: skip as u16,
+        length: (kind >> 48) as u16,
+        partner: match partner {
+            0 => NOBODY,
+            odd if odd % 2 == 1 => (index as u64 - odd / 2) as u32,
+            even => (index as u64 + even / 2) as u32,
+        },
+        port: port as u16,
+        protocol: number(1, 4) as u8,
+        unit: bit(5).then_some((kind >> 32) as u8),
+        function: (kind >> 40) as u8,
+        verdict: VERDICTS[number(6, 2)],
+        direction: if bit(8) { Direction::Response } else { Direction::Request },
+        role: ROLES[number(9, 3)],
+        sides: [bit(12), bit(13)],
+        hint: HINTS[number(14, 3)],
+    }
+}
+
+/// All that many entries have in common.
+fn kind(entry: &Entry) -> u64 {
+    let hint = match entry.hint {
+        Hint::None => 0,
+        Hint::Says(Direction::Request) => 1,
+        Hint::Says(Direction::Response) => 2,
+        Hint::Logger => 3,
+        Hint::Other => 4,
+    };
+    u64::from(entry.time != NO_TIME)
+        | u64::from(entry.protocol) << 1
+        | u64::from(entry.unit.is_some()) << 5
+        | (entry.verdict as u64) << 6
+        | u64::from(entry.direction == Direction::Response) << 8
+        | (entry.role as u64) << 9
+        | u64::from(entry.sides[0]) << 12
+        | u64::from(entry.sides[1]) << 13
+        | hint << 14
+        | u64::from(entry.unit.unwrap_or_default()) << 32
+        | u64::from(entry.function) << 40
+        | u64::from(entry.length) << 48
+}
+
+/// By their numbers.
+const VERDICTS: [Verdict; 4] = [Verdict::Right, Verdict::Wrong, Verdict::Unchecked, Verdict::NoCheck];
+
+/// By their numbers.
+const ROLES: [Role; 8] = [
+    Role::Plain,
+    Role::Echo,
+    Role::Retry,
+    Role::Copy,
+    Role::Broadcast,
+    Role::Late,
+    Role::Unasked,
+    Role::Discarded,
+];
+
+/// By the numbers that [`kind`] gives them; the last three have none.
+const HINTS: [Hint; 8] = [
+    Hint::None,
+    Hint::Says(Direction::Request),
+    Hint::Says(Direction::Response),
+    Hint::Logger,
+    Hint::Other,
+    Hint::None,
+    Hint::None,
+    Hint::None,
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn entry(n: u32) -> Entry {
+        let pick = |of: u32| n.wrapping_mul(2_654_435_761) >> 16 & (of - 1);
+        Entry {
+            time: if n.is_multiple_of(7) { NO_TIME } else { i64::from(n) * 1000 - 5_000_000 },
+            at: 0,
+            offset: (1 << 33) + u64::from(n) * 70,
+            written: n.is_multiple_of(3).then_some(Written { from: n, step: 3 }),
+            line: n + 1,
+            skip: pick(4) as u16,
+            length: 3 + pick(64) as u16,
+            partner: [NOBODY, n + 1 + pick(8), n.saturating_sub(1)][n as usize % 3],
+            port: pick(2) as u16,
+            protocol: pick(8) as u8,
+            unit: (pick(16) > 2).then_some(n as u8),
+            function: pick(128) as u8,
+            verdict: VERDICTS[pick(4) as usize],
+            direction: [Direction::Request, Direction::Response][pick(2) as usize],
+            role: ROLES[pick(8) as usize],
+            sides: [pick(2) == 0, pick(4) == 0],
+            hint: HINTS[n as usize % 5],
+        }
+    }
+
+    #[test]
+    fn entries_come_back_with_their_bytes() {
+        let mut entries = Entries::default();
+        let bytes = |n: u32| vec![n as u8; usize::from(entry(n).length)];
+        (1..30_000).for_each(|n| entries.push(&entry(n), &bytes(n)));
+        assert_eq!(entries.len(), 29_999);
+        for (n, found) in (1..).zip(&entries) {
+            // Whoever is first has nobody before.
+            let partner = if entry(n).partner == n - 1 { NOBODY } else { entry(n).partner };
+            let same = if found.partner == n - 1 { NOBODY } else { found.partner };
+            assert_eq!(Entry { at: 0, partner: same, ..found }, Entry { partner, ..entry(n) });
+            assert_eq!(entries.kept(&found), (n % 3 > 0).then_some(&bytes(n)[..]));
+            assert_eq!(entries.get(n as usize - 1), Some(found));
+        }
+    }
+
+    #[test]
+    fn an_entry_finds_its_partner_later() {
+        let mut entries = Entries::default();
+        (1..3000).for_each(|n| entries.push(&entry(n), &[]));
+        let before = entries.get(20).unwrap();
+        entries.set(20, &Entry { partner: 2900, sides: [true, false], ..before });
+        let after = entries.get(20).unwrap();
+        assert_eq!((after.partner(), after.sides), (Some(2900), [true, false]));
+        assert_eq!(Entry { partner: before.partner, sides: before.sides, ..after }, before);
+    }
+}

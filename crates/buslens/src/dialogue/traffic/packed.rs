@@ -1,0 +1,345 @@
+//! Rows of numbers in little room: what a log keeps of its millions of telegrams.
+//!
+//! Rows that follow each other hardly differ: times and places grow by little, and most of the rest repeats.
+//! So each chunk of rows is packed by itself, column by column, and any row can be read again by itself.
+
+use std::fmt;
+
+/// Rows of `N` numbers each.
+pub(super) struct Packed<const N: usize> {
+    chunks: Vec<Chunk>,
+    /// The columns of the chunk that is not full yet.
+    open: Columns<N>,
+    desk: Desk,
+}
+
+/// The columns of some rows.
+type Columns<const N: usize> = [Vec<u64>; N];
+
+/// So many rows are packed together: as many as the nearest cache of a processor holds.
+const CHUNK: usize = 256;
+
+/// A chunk of rows: a [`Head`] of [`HEAD`] words for each column, and the columns behind them.
+type Chunk = Box<[u64]>;
+
+/// How many words the head of a column takes.
+const HEAD: usize = 2;
+
+/// Where a column is in its chunk, and how it is packed.
+#[derive(Clone, Copy)]
+struct Head {
+    /// What is added to each of its numbers, where it has no list.
+    base: u64,
+    /// How many bits each number has.
+    width: u32,
+    /// How many different numbers stand in its list. The numbers are places in that, if there is one.
+    listed: usize,
+    /// The word at which its list begins, with the numbers behind it.
+    from: usize,
+}
+
+impl<const N: usize> Default for Packed<N> {
+    fn default() -> Self {
+        Self { chunks: Vec::new(), open: [const { Vec::new() }; N], desk: Desk::default() }
+    }
+}
+
+impl<const N: usize> Packed<N> {
+    pub fn len(&self) -> usize {
+        self.chunks.len() * CHUNK + self.open[0].len()
+    }
+
+    #[inline]
+    pub fn push(&mut self, row: [u64; N]) {
+        for (column, number) in self.open.iter_mut().zip(row) {
+            column.push(number);
+        }
+        if self.open[0].len() == CHUNK {
+            self.chunks.push(self.desk.pack(&self.open));
+            self.open.iter_mut().for_each(Vec::clear);
+        }
+    }
+
+    pub fn get(&self, index: usize) -> Option<[u64; N]> {
+        self.numbers(index, std::array::from_fn(|column| column))
+    }
+
+    /// The numbers in some columns of a row.
+    #[inline]
+    pub fn numbers<const M: usize>(&self, index: usize, columns: [usize; M]) -> Option<[u64; M]> {
+        if let Some(chunk) = self.chunks.get(index / CHUNK) {
+            return Some(columns.map(|column| Head::of(chunk, column).number(chunk, index % CHUNK)));
+        }
+        let at = index - self.chunks.len() * CHUNK;
+        (at < self.open[0].len()).then(|| columns.map(|column| self.open[column][at]))
+    }
+
+    /// Puts another row in place of the one at `index`, if there is one. That packs its chunk anew.
+    pub fn set(&mut self, index: usize, row: [u64; N]) {
+        let packed = self.chunks.len() * CHUNK;
+        let put = |columns: &mut Columns<N>, at: usize| {
+            for (column, number) in columns.iter_mut().zip(row) {
+                column[at] = number;
+            }
+        };
+        if let Some(chunk) = self.chunks.get_mut(index / CHUNK) {
+            let mut columns = [const { Vec::new() }; N];
+            unpack(chunk, &mut columns);
+            put(&mut columns, index % CHUNK);
+            *chunk = self.desk.pack(&columns);
+        } else if index < packed + self.open[0].len() {
+            put(&mut self.open, index - packed);
+        }
+    }
+
+    /// All rows in their order; a chunk is unpacked at a time.
+    pub fn iter(&self) -> Rows<'_, N> {
+        Rows { packed: self, columns: [const { Vec::new() }; N], next: 0 }
+    }
+
+    /// How many bytes of memory it takes.
+    pub fn memory(&self) -> usize {
+        let chunks: usize = self.chunks.iter().map(|chunk| size_of_val(&chunk[..])).sum();
+        let open: usize = self.open.iter().map(|column| column.capacity() * size_of::<u64>()).sum();
+        chunks + self.chunks.capacity() * size_of::<Chunk>() + open
+    }
+}
+
+impl<const N: usize> fmt::Debug for Packed<N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.iter()).finish()
+    }
+}
+
+/// The rows of a [`Packed`].
+#[derive(Clone)]
+pub(super) struct Rows<'a, const N: usize> {
+    packed: &'a Packed<N>,
+    /// The columns of the chunk in hand.
+    columns: Columns<N>,
+    next: usize,
+}
+
+impl<const N: usize> Iterator for Rows<'_, N> {
+    type Item = [u64; N];
+
+    #[inline]
+    fn next(&mut self) -> Option<[u64; N]> {
+        let at = self.next % CHUNK;
+        if at == 0 {
+            match self.packed.chunks.get(self.next / CHUNK) {
+                Some(chunk) => unpack(chunk, &mut self.columns),
+                None => self.columns.clone_from(&self.packed.open),
+            }
+        }
+        if at >= self.columns[0].len() {
+            return None;
+        }
+        self.next += 1;
+        Some(std::array::from_fn(|column| self.columns[column][at]))
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        let left = self.packed.len() - self.next;
+        (left, Some(left))
+    }
+}
+
+impl<const N: usize> ExactSizeIterator for Rows<'_, N> {}
+
+impl Head {
+    #[inline]
+    fn of(chunk: &[u64], column: usize) -> Self {
+        let [base, rest] = [chunk[column * HEAD], chunk[column * HEAD + 1]];
+        let [width, listed, from] = [rest & 0xFF, rest >> 8 & 0xFFFF, rest >> 32];
+        Self { base, width: width as u32, listed: listed as usize, from: from as usize }
+    }
+
+    fn words(self) -> [u64; HEAD] {
+        [self.base, u64::from(self.width) | (self.listed as u64) << 8 | (self.from as u64) << 32]
+    }
+
+    /// The number in row `row` of its column.
+    #[inline]
+    fn number(self, chunk: &[u64], row: usize) -> u64 {
+        let bits = match self.width {
+            0 => 0,
+            width => {
+                let first = row * width as usize;
+                let (word, shift) = (self.from + self.listed + first / 64, first % 64);
+                let low = chunk[word] >> shift;
+                let high = if shift + width as usize > 64 { chunk[word + 1] << (64 - shift) } else { 0 };
+                (low | high) & (u64::MAX >> (64 - width))
+            }
+        };
+        if self.listed > 0 { chunk[self.from + bits as usize] } else { self.base.wrapping_add(bits) }
+    }
+}
+
+/// How many bits it takes to tell numbers up to `most` apart.
+fn width(most: u64) -> u32 {
+    u64::BITS - most.leading_zeros()
+}
+
+/// Where chunks are packed, again and again.
+#[derive(Default)]
+struct Desk {
+    words: Vec<u64>,
+    list: List,
+}
+
+impl Desk {
+    /// Packs columns. They have at least one row.
+    fn pack<const N: usize>(&mut self, columns: &Columns<N>) -> Chunk {
+        self.words.clear();
+        self.words.resize(N * HEAD, 0);
+        for (place, column) in columns.iter().enumerate() {
+            let (least, most) =
+                column.iter().fold((u64::MAX, 0), |(least, most), it| (least.min(*it), most.max(*it)));
+            let width = width(most.wrapping_sub(least));
+            let mut head = Head { base: least, width, listed: 0, from: self.words.len() };
+            match self.list.width(column, width) {
+                Some(width) => {
+                    (head.width, head.listed) = (width, self.list.numbers.len());
+                    self.words.extend_from_slice(&self.list.numbers);
+                    write(&mut self.words, self.list.places.iter().map(|place| u64::from(*place)), width);
+                }
+                None => write(&mut self.words, column.iter().map(|number| number.wrapping_sub(least)), width),
+            }
+            self.words[place * HEAD..][..HEAD].copy_from_slice(&head.words());
+        }
+        self.words.as_slice().into()
+    }
+}
+
+/// Writes numbers of so many bits.
+fn write(words: &mut Vec<u64>, numbers: impl Iterator<Item = u64>, width: u32) {
+    if width == 0 {
+        return;
+    }
+    let (mut word, mut used) = (0, 0);
+    for number in numbers {
+        word |= number << used;
+        used += width;
+        if used >= u64::BITS {
+            words.push(word);
+            used -= u64::BITS;
+            // What did not fit any more; a shift by all bits is none.
+            word = if used == 0 { 0 } else { number >> (width - used) };
+        }
+    }
+    if used > 0 {
+        words.push(word);
+    }
+}
+
+/// Reads all rows of a chunk.
+fn unpack<const N: usize>(chunk: &[u64], columns: &mut Columns<N>) {
+    for (place, column) in columns.iter_mut().enumerate() {
+        let head = Head::of(chunk, place);
+        column.clear();
+        match head.width {
+            0 => column.resize(CHUNK, head.number(chunk, 0)),
+            _ => column.extend((0..CHUNK).map(|row| head.number(chunk, row))),
+        }
+    }
+}
+
+/// The different numbers of a column, where they are few.
+#[derive(Default)]
+struct List {
+    numbers: Vec<u64>,
+    /// The place in `numbers` of each row's.
+    places: Vec<u8>,
+    /// By a hash of them, the place behind that of a number; 0 where there is none.
+    slots: Vec<u8>,
+}
+
+impl List {
+    /// Numbers of fewer bits need no list.
+    const LEAST: u32 = 14;
+    const MOST: usize = 64;
+    const SLOTS: usize = 256;
+
+    /// Lists the numbers of a column, if that takes less room than `width` bits for each; returns how many bits
+    /// their places have.
+    fn width(&mut self, numbers: &[u64], width: u32) -> Option<u32> {
+        if width < Self::LEAST || !self.take(numbers) {
+            return None;
+        }
+        let listed = self::width(self.numbers.len() as u64 - 1);
+        let saved = (width - listed) as usize * numbers.len();
+        (saved > self.numbers.len() * u64::BITS as usize).then_some(listed)
+    }
+
+    /// Lists the numbers; `false` if too many differ.
+    fn take(&mut self, numbers: &[u64]) -> bool {
+        self.numbers.clear();
+        self.places.clear();
+        self.slots.clear();
+        self.slots.resize(Self::SLOTS, 0);
+        for number in numbers.iter().copied() {
+            let mut slot = (number.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 56) as usize;
+            let place = loop {
+                match self.slots[slot].checked_sub(1) {
+                    Some(place) if self.numbers[usize::from(place)] == number => break place,
+                    Some(_) => slot = (slot + 1) % Self::SLOTS,
+                    None if self.numbers.len() == Self::MOST => return false,
+                    None => {
+                        self.numbers.push(number);
+                        self.slots[slot] = self.numbers.len() as u8;
+                        break self.slots[slot] - 1;
+                    }
+                }
+            };
+            self.places.push(place as u8);
+        }
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Columns of all kinds: constant, growing, of few values, of any, at both ends of what a number can be.
+    fn row(n: u64) -> [u64; 6] {
+        let mixed = n.wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        [7, n * 60 + mixed % 9, (mixed >> 60) << 40, mixed, u64::MAX - n % 3, (mixed >> 62).wrapping_neg()]
+    }
+
+    #[test]
+    fn rows_come_back() {
+        for length in [0, 1, CHUNK - 1, CHUNK, CHUNK + 1, 3 * CHUNK + 5] {
+            let mut packed = Packed::default();
+            (0..length as u64).for_each(|n| packed.push(row(n)));
+            assert_eq!(packed.len(), length);
+            assert!(packed.iter().eq((0..length as u64).map(row)));
+            assert!((0..length).all(|at| packed.get(at) == Some(row(at as u64))));
+            assert_eq!(packed.get(length), None);
+        }
+    }
+
+    #[test]
+    fn a_row_is_replaced_by_any_other() {
+        let mut packed = Packed::default();
+        (0..2 * CHUNK as u64 + 9).for_each(|n| packed.push(row(n)));
+        for at in [0, 5, CHUNK - 1, CHUNK, 2 * CHUNK + 3] {
+            packed.set(at, [u64::MAX, 0, u64::MAX, at as u64, 1, 2]);
+        }
+        for (at, found) in packed.iter().enumerate() {
+            let replaced = [0, 5, CHUNK - 1, CHUNK, 2 * CHUNK + 3].contains(&at);
+            let expected = if replaced { [u64::MAX, 0, u64::MAX, at as u64, 1, 2] } else { row(at as u64) };
+            assert_eq!(found, expected, "row {at}");
+        }
+    }
+
+    #[test]
+    fn what_repeats_and_grows_takes_little_room() {
+        let mut packed = Packed::default();
+        // Eight kinds that lie far apart, a place, a time.
+        (0..100_000_u64).for_each(|n| packed.push([n % 8 << 50 | n % 3, n * 50, n * 10_000]));
+        let each = packed.memory() as f64 / 100_000.0;
+        assert!(each < 7.0, "{each} bytes a row");
+    }
+}

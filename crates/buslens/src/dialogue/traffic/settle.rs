@@ -1,0 +1,135 @@
+//! Settling: a block of telegrams at a time is judged, met with those before, and packed. What is settled can be
+//! shown while the rest of the log is read.
+
+use std::collections::HashSet;
+use std::fmt;
+
+use super::collect::Traffic;
+use super::entry::{Entry, bytes};
+use super::packed::Packed;
+
+/// So many telegrams are settled at a time: what is true for a log shows in as many.
+const BLOCK: usize = 1 << 14;
+
+/// So many stay behind them, since what follows a telegram tells more of it.
+const BEHIND: usize = 64;
+
+impl Traffic {
+    /// Settles what is complete, up to a line that is read.
+    #[inline]
+    pub(super) fn settle_blocks(&mut self, line: u32) {
+        while self.entries.len() >= BLOCK + BEHIND {
+            self.settle(self.end_of_block());
+        }
+        if self.passed.len() >= 2 * BLOCK {
+            self.settle(self.entries.partition_point(|entry| entry.line < line));
+            self.close_lines(line);
+        }
+    }
+
+    /// A line of a text has no bytes.
+    pub fn pass(&mut self, line: u32, offset: u64) {
+        self.passed.push((line, offset));
+        self.settle_blocks(line);
+    }
+
+    /// Settles all that there is.
+    pub(super) fn settle_all(&mut self) {
+        self.settle_blocks(u32::MAX);
+        self.settle(self.entries.len());
+        self.close_lines(u32::MAX);
+        // Nothing comes any more.
+        (self.entries, self.data) = (Vec::new(), Vec::new());
+    }
+
+    /// Where the next block ends: behind an answer and a line, if there is such a place nearby.
+    fn end_of_block(&self) -> usize {
+        let of_line = |end: &usize| match &self.entries[end - 1..=*end] {
+            [last, next] => last.line != next.line || next.line == 0,
+            _ => false,
+        };
+        let ends = || (BLOCK - BEHIND..=BLOCK).rev().filter(of_line);
+        ends().find(|end| self.entries[end - 1].sides[1]).or_else(|| ends().next()).unwrap_or(BLOCK)
+    }
+
+    /// Settles the first `count` entries.
+    fn settle(&mut self, count: usize) {
+        let mut block = self.judge(count);
+        if !block.is_empty() {
+            // What a capture says of a connection needs no guess.
+            self.meeting.meet(&mut self.settled, &mut block, &self.data, !self.both_ways);
+        }
+        for entry in &block {
+            self.settled.push(entry, bytes(entry, &self.data));
+        }
+        let kept = self.entries.first().map_or(self.data.len(), |entry| entry.at as usize);
+        self.data.drain(..kept);
+        self.entries.iter_mut().for_each(|entry| entry.at -= kept as u64);
+        let next = self.entries.first().map_or(0, |entry| entry.line);
+        self.leave_lines_of(&block);
+        self.close_lines(next);
+    }
+
+    /// Lines that have a telegram were not passed.
+    fn leave_lines_of(&mut self, block: &[Entry]) {
+        if self.passed.is_empty() {
+            return;
+        }
+        let lines: HashSet<u32> = block.iter().map(|entry| entry.line).collect();
+        self.passed.retain(|(line, _)| !lines.contains(line));
+    }
+
+    /// No telegram will be found in lines before this one, but for those that are in hand.
+    fn close_lines(&mut self, line: u32) {
+        let in_hand = self.lanes.iter().filter_map(|lane| lane.rows.first()).map(|row| row.line).min();
+        let line = in_hand.map_or(line, |in_hand| in_hand.min(line));
+        self.passed.sort_unstable();
+        self.passed.dedup();
+        let closed = self.passed.partition_point(|(passed, _)| *passed < line);
+        self.passed.drain(..closed).for_each(|passed| self.lines.push(passed));
+    }
+
+    /// Lines of a text that hold no telegram, as far as all is settled.
+    pub fn lines(&self) -> &Lines {
+        &self.lines
+    }
+}
+
+/// Lines of a text: their numbers, and where they begin in the file.
+#[derive(Default)]
+pub struct Lines(Packed<2>);
+
+impl Lines {
+    pub fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = (u32, u64)> + Clone {
+        self.0.iter().map(|[line, offset]| (line as u32, offset))
+    }
+
+    /// How many bytes of memory they take.
+    pub fn memory(&self) -> usize {
+        self.0.memory()
+    }
+
+    fn push(&mut self, (line, offset): (u32, u64)) {
+        self.0.push([line.into(), offset]);
+    }
+}
+
+impl PartialEq for Lines {
+    fn eq(&self, other: &Self) -> bool {
+        self.iter().eq(other.iter())
+    }
+}
+
+impl fmt::Debug for Lines {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.iter()).finish()
+    }
+}
