@@ -228,13 +228,13 @@ mod tests {
     use super::*;
     use crate::{Answer, grade};
 
-    const PAIR: &str = "01 03 00 C8 00 03 84 35\n01 03 06 00 80 42 A4 11 DE F0 BC";
+    const REQUEST: &str = "01 03 00 C8 00 03 84 35";
 
     fn pair() -> Telegram {
         // The response with a byte 11h, and the CRC that belongs to it.
         let body = [0x01, 0x03, 0x06, 0x00, 0x80, 0x42, 0xA4, 0x11, 0xDE];
         let check = buslens::tool::steps::CHECKS[0].wire(&body) as u16;
-        let text = format!("{}\n{} {}", PAIR.lines().next().unwrap(), hex(&body), hex(&check.to_be_bytes()));
+        let text = format!("{REQUEST}\n{} {}", hex(&body), hex(&check.to_be_bytes()));
         telegram(&text, None).unwrap()
     }
 
