@@ -22,20 +22,20 @@ async fn answer(page: &Page, task: &Task) -> Result {
             wrong[0] ^= 3;
             let wrong = buslens::field::hex(&wrong);
             page.fill(".answer input", &wrong).await?;
-            page.press_button("Check").await?;
+            page.press_button("Check the answer").await?;
             page.until(".said.wrong", &said(task, &Answer::Text(wrong))).await?;
             page.fill(".answer input", &telegram.hex().to_lowercase().replace(' ', "")).await?;
         }
         Expected::Number(number) => {
             page.fill(".answer input", "7").await?;
-            page.press_button("Check").await?;
+            page.press_button("Check the answer").await?;
             page.until(".said.wrong", &said(task, &Answer::Text("7".to_owned()))).await?;
             page.fill(".answer input", &number.text()).await?;
         }
         Expected::Choice { choices, right } => {
             let wrong = (right + 1) % choices.len();
             page.click(&format!(".choice:nth-of-type({}) input", wrong + 1)).await?;
-            page.press_button("Check").await?;
+            page.press_button("Check the answer").await?;
             page.until(".said.wrong", &said(task, &Answer::Choice(wrong))).await?;
             page.click(&format!(".choice:nth-of-type({}) input", right + 1)).await?;
         }
@@ -44,7 +44,7 @@ async fn answer(page: &Page, task: &Task) -> Result {
             let wrong = if at.contains(last) { 0 } else { last };
             let strip = ".ask > .given:nth-last-of-type(1) .byte-strip";
             page.click(&format!("{strip} li:nth-child({}) button", wrong + 1)).await?;
-            page.press_button("Check").await?;
+            page.press_button("Check the answer").await?;
             page.until(".said.wrong", &said(task, &Answer::Byte(wrong))).await?;
             page.click(&format!("{strip} li:nth-child({}) button", at.from + 1)).await?;
         }
@@ -53,7 +53,7 @@ async fn answer(page: &Page, task: &Task) -> Result {
                 page.fill(&format!(".blank:nth-of-type({}) input", nth_blank(telegram, blanks, index)), "7E")
                     .await?;
             }
-            page.press_button("Check").await?;
+            page.press_button("Check the answer").await?;
             page.until(".said.wrong", "Not yet").await?;
             for (index, blank) in blanks.iter().enumerate() {
                 let css = format!(".blank:nth-of-type({}) input", nth_blank(telegram, blanks, index));
@@ -61,7 +61,7 @@ async fn answer(page: &Page, task: &Task) -> Result {
             }
         }
     }
-    page.press_button("Check").await?;
+    page.press_button("Check the answer").await?;
     page.until(".said.right", "Right.").await
 }
 
@@ -120,7 +120,7 @@ async fn practice_ends_with_a_code() -> Result {
             (_, 0) => answer(&page, task).await?,
             (Expected::Number(number), _) => {
                 page.fill(".answer input", &number.text()).await?;
-                page.press_button("Check").await?;
+                page.press_button("Check the answer").await?;
                 page.until(".said.right", "Right.").await?;
             }
             (other, _) => panic!("{other:?}"),

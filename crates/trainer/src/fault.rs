@@ -19,12 +19,10 @@ pub enum Fault {
     ByteExtra,
     ByteMissing,
     FlowControl,
-    LineTurn,
-    EchoInFront,
 }
 
 impl Fault {
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 9] = [
         Self::CheckSwapped,
         Self::BitFlipped,
         Self::ByteChanged,
@@ -34,8 +32,6 @@ impl Fault {
         Self::ByteExtra,
         Self::ByteMissing,
         Self::FlowControl,
-        Self::LineTurn,
-        Self::EchoInFront,
     ];
 
     /// The stable word of links, which is that of the library's cause.
@@ -50,8 +46,6 @@ impl Fault {
             Self::ByteExtra => "byte-extra",
             Self::ByteMissing => "byte-missing",
             Self::FlowControl => "flow-control",
-            Self::LineTurn => "line-turn",
-            Self::EchoInFront => "echo-in-front",
         }
     }
 
@@ -70,8 +64,6 @@ impl Fault {
             Self::ByteExtra => "A byte is too much",
             Self::ByteMissing => "A byte is missing",
             Self::FlowControl => "A converter swallowed 11h or 13h",
-            Self::LineTurn => "00 or FF of the line is in front or behind",
-            Self::EchoInFront => "The request is in front of its response",
         }
     }
 
@@ -80,9 +72,8 @@ impl Fault {
     pub fn inject(self, telegram: &Telegram, random: &mut Random) -> Option<(Vec<u8>, Span)> {
         /// A place by chance may be one where the damage fits something else, too.
         const TRIES: usize = 20;
-        let before = telegram.request.as_deref();
         (0..TRIES).find_map(|_| {
-            let (bytes, at) = self.damage(&telegram.bytes, before, random)?;
+            let (bytes, at) = self.damage(&telegram.bytes, random)?;
             let at = at.min(bytes.len().saturating_sub(1));
             (bytes != telegram.bytes && found(telegram, &bytes) == Some(self.key()))
                 .then_some((bytes, Span::new(at, at + 1)))
@@ -90,7 +81,7 @@ impl Fault {
     }
 
     /// Damages bytes somewhere.
-    fn damage(self, bytes: &[u8], before: Option<&[u8]>, random: &mut Random) -> Option<(Vec<u8>, usize)> {
+    fn damage(self, bytes: &[u8], random: &mut Random) -> Option<(Vec<u8>, usize)> {
         let mut damaged = bytes.to_vec();
         let body = bytes.len().checked_sub(2).filter(|body| *body > 1)?;
         let at = random.below(body);
@@ -133,16 +124,6 @@ impl Fault {
                 damaged.retain(|byte| !matches!(byte, 0x11 | 0x13));
                 at
             }
-            Self::LineTurn => {
-                let byte = random.one_of(&[0x00, 0xFF]);
-                let at = if random.below(2) == 0 { 0 } else { bytes.len() };
-                damaged.insert(at, byte);
-                at
-            }
-            Self::EchoInFront => {
-                damaged = [before?, bytes].concat();
-                0
-            }
         };
         Some((damaged, at))
     }
@@ -163,7 +144,7 @@ fn found(telegram: &Telegram, damaged: &[u8]) -> Option<&'static str> {
 /// it is the same task.
 pub fn task(telegram: &Telegram, fault: Fault, random: &mut Random) -> Option<Task> {
     let (bytes, at) = fault.inject(telegram, random)?;
-    let others: Vec<Fault> = Fault::ALL.into_iter().filter(|other| fits(*other, fault, telegram)).collect();
+    let others: Vec<Fault> = Fault::ALL.into_iter().filter(|other| fits(*other, fault)).collect();
     let mut all = random.some_of(&others, 3);
     all.push(fault);
     random.shuffle(&mut all);
@@ -171,9 +152,7 @@ pub fn task(telegram: &Telegram, fault: Fault, random: &mut Random) -> Option<Ta
     let remark = |one: &Fault| match one {
         Fault::CheckSwapped => "Work out the CRC of the bytes before it: its bytes would only change places.",
         Fault::ByteMissing | Fault::FlowControl => "Count the bytes: are there too few?",
-        Fault::ByteDoubled | Fault::ByteExtra | Fault::LineTurn | Fault::EchoInFront => {
-            "Count the bytes: are there too many?"
-        }
+        Fault::ByteDoubled | Fault::ByteExtra => "Count the bytes: are there too many?",
         _ => "The length is as it should be; compare byte by byte with what was meant.",
     };
     let damaged = telegram.with(bytes);
@@ -209,14 +188,14 @@ pub fn task(telegram: &Telegram, fault: Fault, random: &mut Random) -> Option<Ta
 }
 
 /// Whether `other` can stand beside `fault` as a wrong choice: what says less of the same is right, too.
-fn fits(other: Fault, fault: Fault, telegram: &Telegram) -> bool {
+fn fits(other: Fault, fault: Fault) -> bool {
     let changed = [Fault::BitFlipped, Fault::ByteChanged, Fault::DigitsSwapped];
-    let longer = [Fault::ByteDoubled, Fault::ByteExtra, Fault::LineTurn];
+    let longer = [Fault::ByteDoubled, Fault::ByteExtra];
     let shorter = [Fault::ByteMissing, Fault::FlowControl];
     let alike = [&changed[..], &longer, &shorter]
         .into_iter()
         .any(|group| group.contains(&fault) && group.contains(&other));
-    other != fault && !alike && (other != Fault::EchoInFront || telegram.request.is_some())
+    other != fault && !alike
 }
 
 /// A telegram that somebody pastes, for a fault to be put into: the last one of the text, with the request that it
@@ -249,13 +228,13 @@ mod tests {
     use super::*;
     use crate::{Answer, grade};
 
-    const PAIR: &str = "01 03 00 C8 00 03 84 35\n01 03 06 00 80 42 A4 11 DE F0 BC";
+    const REQUEST: &str = "01 03 00 C8 00 03 84 35";
 
     fn pair() -> Telegram {
         // The response with a byte 11h, and the CRC that belongs to it.
         let body = [0x01, 0x03, 0x06, 0x00, 0x80, 0x42, 0xA4, 0x11, 0xDE];
         let check = buslens::tool::steps::CHECKS[0].wire(&body) as u16;
-        let text = format!("{}\n{} {}", PAIR.lines().next().unwrap(), hex(&body), hex(&check.to_be_bytes()));
+        let text = format!("{REQUEST}\n{} {}", hex(&body), hex(&check.to_be_bytes()));
         telegram(&text, None).unwrap()
     }
 

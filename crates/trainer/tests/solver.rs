@@ -135,7 +135,9 @@ fn telegrams(task: &Task) -> Vec<Telegram> {
 fn numbers(text: &str) -> Vec<i64> {
     let separated = text.replace(['(', ')', ',', ':', '?', ';'], " ").replace('−', "-");
     let words = separated.split_whitespace().map(|word| word.trim_end_matches('.'));
-    let number = |word: &str| match word.strip_suffix('h') {
+    // "each" is no number.
+    let hex = |word: &str| word.starts_with(|c: char| c.is_ascii_digit());
+    let number = |word: &str| match word.strip_suffix('h').filter(|_| hex(word)) {
         Some(digits) => i64::from_str_radix(digits, 16).ok(),
         None => word.parse().ok(),
     };
@@ -322,11 +324,9 @@ fn build(question: &str) -> Option<String> {
         return Some(buslens::field::hex(&bytes));
     }
     if question.contains("mapping list") {
-        let (address, entry, unit) = (said[0], *said.get(said.iter().position(|it| *it == said[1])? + 1)?, 0);
-        let _ = (entry, unit);
         let after = |words: &str| numbers(question.split(words).nth(1)?).first().copied();
         let (entry, unit) = (after("into entry ")?, after("with address ")?);
-        let [high, low] = (address as u16).to_be_bytes();
+        let [high, low] = (said[0] as u16).to_be_bytes();
         return pdu(unit, 0x65, &[0x5F32 + entry, 1], &[4, high, low, 1, 1]);
     }
     if question.contains("Memograph") {

@@ -243,7 +243,7 @@ fn AnswerForm(
         <form class="answer" on:submit=check>
             {input}
             <Show when=move || !done.get()>
-                <button type="submit" class="button main">"Check"</button>
+                <button type="submit" class="button main">"Check the answer"</button>
             </Show>
         </form>
     }
@@ -484,12 +484,12 @@ fn Hints(attempt: Memo<Attempt>, task: StoredValue<Task>) -> impl IntoView {
         shown.into_iter().map(|hint| view! { <li>{hint}</li> }).collect_view()
     };
     view! {
-        <aside class="hints" aria-live="polite" aria-label="Hints">
+        <section class="hints" aria-live="polite" aria-label="Hints">
             <Show when=move || attempt.with(|attempt| attempt.hints != 0)>
                 <h3>"Hints"</h3>
             </Show>
             <ol>{hints}</ol>
-        </aside>
+        </section>
     }
 }
 
