@@ -201,21 +201,21 @@ pub fn Gallery() -> impl IntoView {
                     />
                 </label>
                 <label class="choose">
-                    "Of"
+                    <span>"Of"</span>
                     <select class="select low" on:change=choose(|to, key| to.manual = key)>
                         {option(|it| &it.manual, String::new(), "all manuals".to_owned())}
                         {manuals.collect_view()}
                     </select>
                 </label>
                 <label class="choose">
-                    "Kind"
+                    <span>"Kind"</span>
                     <select class="select low" on:change=choose(|to, key| to.kind = key)>
                         {option(|it| &it.kind, String::new(), "all".to_owned())}
                         {kinds.into_iter().collect_view()}
                     </select>
                 </label>
                 <label class="choose">
-                    "Function"
+                    <span>"Function"</span>
                     <select class="select low" on:change=choose(|to, key| to.function = key)>
                         {option(|it| &it.function, String::new(), "all".to_owned())}
                         {functions.collect_view()}
