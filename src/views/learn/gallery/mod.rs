@@ -350,7 +350,7 @@ mod tests {
         assert_eq!((printed("memograph-rsg45"), printed("keb-f5-profibus")), (71, 15));
         let of_devices = SAMPLES.iter().filter(|(it, _)| key_of(it) != STANDARDS);
         let named = |it: &Sample| {
-            SECTIONS.iter().any(|(key, section, _)| (*key, *section) == (key_of(it), &it.section))
+            SECTIONS.iter().any(|(key, section, _)| *key == key_of(it) && *section == it.section)
         };
         for (sample, _) in of_devices {
             assert!(named(sample), "{}, {} has no title", sample.manual, sample.section);
