@@ -5,6 +5,8 @@ use serde_json::json;
 use thirtyfour::prelude::*;
 
 const SEARCH: &str = ".reference [type=search]";
+/// How many telegrams the gallery shows.
+const TOLD: &str = ".gallery .tools .end";
 const REQUEST: &str = ".side[aria-label=Request]";
 
 /// Types into the search of the reference, and waits for the first row to be of that name.
@@ -37,7 +39,7 @@ async fn a_misprint_says_what_is_wrong_in_the_print() -> Result {
     let page = Page::open_at("#/learn?place=telegrams", DESKTOP, false).await?;
     page.wait_for(".gallery .tools").await?;
     page.choose_in("Kind", "Misprinted").await?;
-    page.until(".gallery .tools .end", "15 telegrams").await?;
+    page.until(TOLD, "15 telegrams").await?;
     assert_eq!(page.count(".samples .slip").await?, 15);
     let slips = page.texts(".samples .slip").await?;
     assert!(slips[0].contains("The status 00 80 is printed as 00 08. Corrected:"), "{}", slips[0]);
@@ -47,7 +49,7 @@ async fn a_misprint_says_what_is_wrong_in_the_print() -> Result {
     page.until(".lead h2", "but the checksum is wrong").await?;
     page.until(".causes", "2.6.3").await?;
     page.driver.back().await?;
-    page.until(".gallery .tools .end", "15 telegrams").await?;
+    page.until(TOLD, "15 telegrams").await?;
     page.click(".samples li:nth-child(1) .slip a").await?;
     page.until(".lead h2", "Universal channel 1 = 82.4724, good.").await?;
     page.close().await
@@ -60,14 +62,15 @@ async fn the_gallery_is_narrowed_by_manual_function_and_words() -> Result {
     page.picture("gallery-phone-dark").await?;
     assert_eq!(page.accessibility().await?, [""; 0]);
     page.choose_in("Of", "all manuals").await?;
-    page.choose_in("Function", "101:").await?;
+    page.choose_in("Function", "101: Write 32-bit registers (KEB)").await?;
     page.until(".samples .says", "mapping entry").await?;
     page.choose_in("Function", "all").await?;
     page.fill(".gallery [type=search]", "event text").await?;
-    page.until(".gallery .tools .end", "2 telegrams").await?;
     assert_eq!(page.fragment().await?, "#/learn?place=telegrams....event+text");
+    assert_eq!(page.text(TOLD).await?, "2 telegrams");
     page.fill(".gallery [type=search]", "05 10 0B D0 00 03 82").await?;
-    page.until(".gallery .tools .end", "1 telegram").await?;
+    page.settle().await?;
+    assert_eq!(page.text(TOLD).await?, "1 telegram");
     page.fill(".gallery [type=search]", "no such thing").await?;
     page.until(".gallery .nothing", "No telegram is like that.").await?;
     page.click(".gallery .nothing button").await?;

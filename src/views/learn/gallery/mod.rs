@@ -201,21 +201,21 @@ pub fn Gallery() -> impl IntoView {
                     />
                 </label>
                 <label class="choose">
-                    "Of"
+                    <span>"Of"</span>
                     <select class="select low" on:change=choose(|to, key| to.manual = key)>
                         {option(|it| &it.manual, String::new(), "all manuals".to_owned())}
                         {manuals.collect_view()}
                     </select>
                 </label>
                 <label class="choose">
-                    "Kind"
+                    <span>"Kind"</span>
                     <select class="select low" on:change=choose(|to, key| to.kind = key)>
                         {option(|it| &it.kind, String::new(), "all".to_owned())}
                         {kinds.into_iter().collect_view()}
                     </select>
                 </label>
                 <label class="choose">
-                    "Function"
+                    <span>"Function"</span>
                     <select class="select low" on:change=choose(|to, key| to.function = key)>
                         {option(|it| &it.function, String::new(), "all".to_owned())}
                         {functions.collect_view()}
@@ -350,7 +350,7 @@ mod tests {
         assert_eq!((printed("memograph-rsg45"), printed("keb-f5-profibus")), (71, 15));
         let of_devices = SAMPLES.iter().filter(|(it, _)| key_of(it) != STANDARDS);
         let named = |it: &Sample| {
-            SECTIONS.iter().any(|(key, section, _)| (*key, *section) == (key_of(it), &it.section))
+            SECTIONS.iter().any(|(key, section, _)| *key == key_of(it) && *section == it.section)
         };
         for (sample, _) in of_devices {
             assert!(named(sample), "{}, {} has no title", sample.manual, sample.section);

@@ -13,7 +13,6 @@ use leptos::prelude::*;
 use super::state::{LearnState, Part};
 use crate::address::{View, href};
 use crate::components::icon::{Glyph, Icon};
-use buslens::field::count;
 use buslens::tool::link::Link;
 use buslens::tool::reference::{About, Book, Chapter, Item, find, items};
 use entry::Entry;
@@ -175,9 +174,10 @@ pub fn Reference() -> impl IntoView {
         }
         .into_any()
     };
-    let number = move || match is_start() {
-        true => String::new(),
-        false => count(found.with(|found| found.0.len()), "entry").replace("entrys", "entries"),
+    let number = move || match found.with(|found| found.0.len()) {
+        _ if is_start() => String::new(),
+        1 => "1 entry".to_owned(),
+        entries => format!("{entries} entries"),
     };
     view! {
         <section class="reference" aria-label="Reference">
