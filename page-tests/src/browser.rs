@@ -56,15 +56,18 @@ pub struct Driver {
 impl Driver {
     /// Starts one. Whatever becomes of the test, its keeper ends it.
     pub fn start(dark: bool) -> Self {
-        let mut keeper = Command::new(setting("BUSLENS_KEEPER"))
+        let mut command = Command::new(setting("BUSLENS_KEEPER"));
+        command
             .arg("keep")
             .arg(setting("BUSLENS_DRIVER"))
             // Where WebKit looks for the theme.
             .env("GTK_THEME", if dark { "Adwaita:dark" } else { "Adwaita" })
             .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .spawn()
-            .expect("the keeper of the driver starts");
+            .stdout(Stdio::piped());
+        // Ctrl+C ends the tests, and by that the keeper ends the driver: it must not end before.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        let mut keeper = command.spawn().expect("the keeper of the driver starts");
         let mut line = String::new();
         let stdout = keeper.stdout.take().expect("it prints the port");
         BufReader::new(stdout).read_line(&mut line).expect("the port is read");

@@ -7,7 +7,7 @@ use crate::steps::{self, Result, Step};
 use crate::tools::Engine;
 use crate::{fuzz, page_tests, size, supply, tools};
 
-pub const STEPS: &[Step] = &[
+const STEPS: &[Step] = &[
     ("tools", tools),
     ("formatting", formatting),
     ("clippy", clippy),
@@ -23,14 +23,20 @@ pub const STEPS: &[Step] = &[
     ("the page in a browser", || page_tests::run(&[])),
 ];
 
-/// What `--browsers all` adds.
-pub const OTHER_BROWSERS: &[Step] = &[
+/// What `--browsers all` adds: before all else, and behind it.
+const OTHER_TOOLS: &[Step] = &[("tools of the other browsers", other_tools)];
+const OTHER_BROWSERS: &[Step] = &[
     ("the page in Firefox", || page_tests::run(&[page_tests::BROWSERS, "firefox"])),
     ("the page in WebKit", || page_tests::run(&[page_tests::BROWSERS, "webkit"])),
 ];
 
-pub fn run(steps: &[Step]) -> Result {
-    steps::run_all(steps)
+pub fn run() -> Result {
+    steps::run_all(STEPS)
+}
+
+/// All of them, with the page in the other browsers, too.
+pub fn run_in_all_browsers() -> Result {
+    steps::run_all(&[OTHER_TOOLS, STEPS, OTHER_BROWSERS].concat())
 }
 
 /// First, since a missing tool should not show after minutes.
@@ -43,6 +49,14 @@ fn tools() -> Result {
     println!("Browser: {}", browser.program.display());
     println!("Driver: {}", browser.driver.display());
     println!("Accessibility: {}", axe.display());
+    Ok(())
+}
+
+fn other_tools() -> Result {
+    for engine in [Engine::Firefox, Engine::Webkit] {
+        let browser = tools::browser(engine)?;
+        println!("{}: {}, driven by {}", engine.label(), browser.program.display(), browser.driver.display());
+    }
     Ok(())
 }
 

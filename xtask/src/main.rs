@@ -53,9 +53,9 @@ fn main() -> ExitCode {
         ["build"] => |_| build::run(Build::Release),
         ["build", "--dev"] => |_| build::run(Build::Dev),
         ["serve"] | ["serve", "--port", _] => watch::serve,
-        ["test"] => |_| check::run(check::STEPS),
+        ["test"] => |_| check::run(),
         ["test", page_tests::BROWSERS, "all"] => {
-            |_| check::run(&[check::STEPS, check::OTHER_BROWSERS].concat())
+            return done(go_to_root().and_then(|()| check::run_in_all_browsers()));
         }
         ["test", "page", ..] => return done(go_to_root().and_then(|()| page_tests::run(&words[2..]))),
         ["fuzz", ref arguments @ ..] => return done(go_to_root().and_then(|()| fuzz::run(arguments))),

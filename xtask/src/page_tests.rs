@@ -109,13 +109,12 @@ struct Kept {
 impl Kept {
     fn start(program: &Path) -> Result<Self> {
         let says = |error| format!("{} did not start: {error}.", program.display());
-        let mut keeper = Command::new(std::env::current_exe().map_err(says)?)
-            .arg(KEEP)
-            .arg(program)
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .spawn()
-            .map_err(says)?;
+        let mut command = Command::new(std::env::current_exe().map_err(says)?);
+        command.arg(KEEP).arg(program).stdin(Stdio::piped()).stdout(Stdio::piped());
+        // Ctrl+C ends the tests, and by that the keeper ends what it keeps: it must not end before.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        let mut keeper = command.spawn().map_err(says)?;
         let mut line = String::new();
         let printed = keeper.stdout.take();
         let read = printed.map(|stdout| BufReader::new(stdout).read_line(&mut line));
