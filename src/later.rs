@@ -13,6 +13,7 @@ use leptos::task::spawn_local;
 use leptos::wasm_split::{SplitLoaderError, wasm_split};
 
 use crate::address::View;
+use crate::browser::stylesheet;
 use crate::components::causes::Causes;
 use crate::components::chosen_byte::ChosenByte;
 use crate::components::copy_as::CopyAs;
@@ -261,6 +262,7 @@ impl Later {
             let loaded = match part {
                 Part::Views => views().await,
                 Part::Log => log().await,
+                Part::Learn if !stylesheet::load_later().await => Err(NotLoaded),
                 Part::Learn => learn().await,
             };
             stage.set(match loaded {
