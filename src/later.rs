@@ -262,8 +262,10 @@ impl Later {
             let loaded = match part {
                 Part::Views => views().await,
                 Part::Log => log().await,
-                Part::Learn if !stylesheet::load_later().await => Err(NotLoaded),
-                Part::Learn => learn().await,
+                Part::Learn => match stylesheet::load_later().await {
+                    true => learn().await,
+                    false => Err(NotLoaded),
+                },
             };
             stage.set(match loaded {
                 Ok(content) => {
