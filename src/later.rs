@@ -13,6 +13,7 @@ use leptos::task::spawn_local;
 use leptos::wasm_split::{SplitLoaderError, wasm_split};
 
 use crate::address::View;
+use crate::browser::stylesheet;
 use crate::components::causes::Causes;
 use crate::components::chosen_byte::ChosenByte;
 use crate::components::copy_as::CopyAs;
@@ -261,7 +262,10 @@ impl Later {
             let loaded = match part {
                 Part::Views => views().await,
                 Part::Log => log().await,
-                Part::Learn => learn().await,
+                Part::Learn => match stylesheet::load_later().await {
+                    true => learn().await,
+                    false => Err(NotLoaded),
+                },
             };
             stage.set(match loaded {
                 Ok(content) => {

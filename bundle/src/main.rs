@@ -64,13 +64,19 @@ fn run() -> Result<(), String> {
     let template = text("index.html")?;
     let Compiled { glue, wasm, later } = Compiled::read("page", Path::new(wasm))?;
     let boot = hashed("boot", "js", page::boot(&glue, &wasm, is_kept)?.into_bytes());
-    let style = hashed("page", "css", stylesheet(&template)?.into_bytes());
+    let style = stylesheet(&template, "stylesheet")? + page::NOTE_STYLE;
+    let style = hashed("page", "css", page::without_comments(&style).into_bytes());
+    let later_style = page::without_comments(&stylesheet(&template, "prefetch")?);
+    let later_style = hashed("later", "css", later_style.into_bytes());
     let icon = hashed("icon", "svg", read(&linked(&template, "icon")?)?);
     let mut icons = Vec::new();
     let manifest = offline::manifest(&linked(&template, "manifest")?, &mut icons)?;
 
-    let parts: Vec<&File> =
-        [&boot, &glue, &wasm, &style, &icon, &manifest].into_iter().chain(&later).chain(&icons).collect();
+    let parts: Vec<&File> = [&boot, &glue, &wasm, &style, &icon, &manifest, &later_style]
+        .into_iter()
+        .chain(&later)
+        .chain(&icons)
+        .collect();
     let version = offline::version(&template, &parts);
     let mut written = Written::new(folder, purpose == Purpose::Release)?;
     for file in &parts {
@@ -82,13 +88,20 @@ fn run() -> Result<(), String> {
             .chain(&later)
             .map(|file| Ok((file, written.packed(file)?)))
             .collect::<Result<_, String>>()?;
-        let content = one_file::html(&template, &version, &style, &icon, &glue, &modules)?;
+        let content = one_file::html(&template, &version, &[&style, &later_style], &icon, &glue, &modules)?;
         let file = File { name: ONE_FILE.to_owned(), content: content.into_bytes() };
         written.add(&file)?;
         edition = Edition { kind: "hosted", one_file: Some((ONE_FILE, file.content.len())), ..edition };
     }
-    let links =
-        Links { style: &style, icon: &icon, manifest: &manifest, boot: &boot, glue: &glue, wasm: &wasm };
+    let links = Links {
+        style: &style,
+        icon: &icon,
+        manifest: &manifest,
+        boot: &boot,
+        glue: &glue,
+        wasm: &wasm,
+        later_style: &later_style,
+    };
     let document = page::html(&template, &edition, &links)?.into_bytes();
     let worker = match is_kept {
         true => offline::service_worker(&version, &document, &parts)?,
@@ -162,15 +175,10 @@ fn hashed(stem: &str, extension: &str, content: Vec<u8>) -> File {
     File { name: names::hashed(stem, extension, &content), content }
 }
 
-/// The stylesheets that the template links to, as one.
-fn stylesheet(template: &str) -> Result<String, String> {
-    let mut style = String::new();
-    for name in page::linked(template, "stylesheet") {
-        style.push_str(&text(name)?);
-        style.push('\n');
-    }
-    style.push_str(page::NOTE_STYLE);
-    Ok(page::without_comments(&style))
+/// The stylesheets that the template links to as `rel`, as one: `prefetch` are those that a later part needs.
+fn stylesheet(template: &str, rel: &str) -> Result<String, String> {
+    let texts = page::linked(template, rel).into_iter().map(text);
+    texts.map(|text| Ok(text? + "\n")).collect()
 }
 
 /// The one file that the template links to as `rel`.

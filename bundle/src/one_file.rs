@@ -17,13 +17,13 @@ const NOTE: &str = "<p id=\"boot\">Buslens is starting. If it does not, this bro
 pub fn html(
     template: &str,
     version: &str,
-    style: &File,
+    styles: &[&File],
     icon: &File,
     glue: &File,
     modules: &[(&File, Vec<u8>)],
 ) -> Result<String, String> {
     let [(first, _), ..] = modules else { return Err("The page has no module.".to_owned()) };
-    let style = text(style)?;
+    let style = styles.iter().map(|style| text(style)).collect::<Result<String, String>>()?;
     if style.contains("</") {
         return Err("The stylesheet would end before its end, in the page as one file.".to_owned());
     }
@@ -42,7 +42,7 @@ pub fn html(
     }
     body.push_str(&format!("\n<script>{script}</script>"));
     let edition = Edition { version, kind: "one-file", one_file: None };
-    page::document(template, &policy(style, &script), &edition, &lines, &body)
+    page::document(template, &policy(&style, &script), &edition, &lines, &body)
 }
 
 /// What the file may do: run its one script, use its one stylesheet, and talk to nobody at all.
@@ -104,7 +104,7 @@ mod tests {
         html(
             "<html>\n  <head>\n    <link rel=\"icon\" href=\"a.svg\">\n  </head>\n  <body></body>\n</html>\n",
             "1.2.3+abcd",
-            &file("page-1.css", style),
+            &[&file("page-1.css", style)],
             &file("icon-1.svg", "<svg/>"),
             &file("page-1.js", glue),
             &[(&file("page-1.wasm", ""), vec![1, 2, 3]), (&file("later-2.wasm", ""), vec![4])],

@@ -52,6 +52,8 @@ pub struct Links<'a> {
     pub boot: &'a File,
     pub glue: &'a File,
     pub wasm: &'a File,
+    /// For what comes later, see src/browser/stylesheet.rs.
+    pub later_style: &'a File,
 }
 
 /// What the document says of itself, for src/browser/edition.rs.
@@ -82,7 +84,7 @@ pub fn linked<'a>(template: &'a str, rel: &str) -> Vec<&'a str> {
 /// The document: the template with the files of the page in place of those it was written with. All
 /// addresses are relative, so that the page works in any folder of a site.
 pub fn html(template: &str, edition: &Edition, links: &Links) -> Result<String, String> {
-    let Links { style, icon, manifest, boot, glue, wasm } = links;
+    let Links { style, icon, manifest, boot, glue, wasm, later_style } = links;
     let lines = [
         format!(
             r#"<link rel="preload" href="./{}" as="fetch" type="application/wasm" crossorigin>"#,
@@ -98,6 +100,7 @@ pub fn html(template: &str, edition: &Edition, links: &Links) -> Result<String, 
             style.name,
             integrity(&style.content)
         ),
+        format!(r#"<meta name="later-style" content="./{}">"#, later_style.name),
         format!(r#"<link rel="icon" href="./{}" type="image/svg+xml">"#, icon.name),
         format!(r#"<link rel="manifest" href="./{}" crossorigin="use-credentials">"#, manifest.name),
         format!(
@@ -186,6 +189,7 @@ mod tests {
                 boot: &file("boot-3.js"),
                 glue: &file("page-4.js"),
                 wasm: &file("page-5.wasm"),
+                later_style: &file("later-7.css"),
             },
         )
     }

@@ -55,6 +55,11 @@ pub fn has_newer() -> bool {
 /// An event of the window.
 pub const NEWER: &str = "newversion";
 
+/// The stylesheet of what comes later, where it is not in the document.
+pub fn later_style() -> Option<String> {
+    said("later-style")
+}
+
 /// What the document says under a name.
 fn said(name: &str) -> Option<String> {
     let meta = document().query_selector(&format!("meta[name={name}]")).ok()??;

@@ -7,4 +7,5 @@ pub mod file;
 pub mod kept_file;
 pub mod panic;
 pub mod storage;
+pub mod stylesheet;
 pub mod typing;

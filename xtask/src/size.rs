@@ -27,10 +27,9 @@ pub fn check(folder: &Path) -> Result {
     let (document, worker) = (document?, worker?);
     let names = page_files(folder)?;
     check_kept(&names, &worker)?;
-    // The manifest is for those who install the page.
-    let is_first = |name: &String| {
-        name == DOCUMENT || (document.contains(name.as_str()) && !name.starts_with("manifest-"))
-    };
+    // The manifest is for those who install the page; what comes later is named so.
+    let is_later = |name: &String| ["manifest-", "later-"].iter().any(|start| name.starts_with(start));
+    let is_first = |name: &String| name == DOCUMENT || (document.contains(name.as_str()) && !is_later(name));
     let (first, later): (Vec<_>, Vec<_>) =
         names.into_iter().filter(|name| name != ONE_FILE_NAME).partition(is_first);
     let mut sum = 0;
