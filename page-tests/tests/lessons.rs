@@ -146,7 +146,7 @@ async fn hints_come_one_by_one() -> Result {
 async fn two_sides_take_turns() -> Result {
     let page = Page::open_at("#/learn?place=lessons.channel.2", NARROW, false).await?;
     page.until(".spoken", "with handshake 1").await?;
-    let shown = "return [...document.querySelectorAll('.sides li:not([hidden])')].length";
+    let shown = "return [...document.querySelectorAll('.sides > ol > li:not([hidden])')].length";
     assert_eq!(page.value(shown).await?, json!(1));
     for _ in 0..3 {
         page.press_button("Next").await?;
