@@ -122,9 +122,9 @@ fn memory_grows_with_the_telegrams_and_by_little() {
             assert!(taken <= 16 * telegrams, "{what}: {taken} bytes for {telegrams} telegrams");
             assert!(most <= 16 * telegrams, "{what}: {most} bytes beside what is in hand, of {telegrams}");
         }
-        // Twice the log takes twice as much of what grows: the steps are alike.
+        // Twice the log takes no more than twice as much of what grows: the later steps are as small as the first.
         let steps = [each[1][0] - each[0][0], (each[2][0] - each[1][0]) / 2];
-        assert!(steps[0].abs_diff(steps[1]) * 10 < steps[0], "{what}: {steps:?} more at each step");
+        assert!(steps[1] * 10 <= steps[0] * 11, "{what}: {steps:?} more at each step");
         assert!(steps[1] <= 12 * TELEGRAMS, "{what}: {} bytes more for {TELEGRAMS} telegrams", steps[1]);
     }
 }
