@@ -11,25 +11,28 @@ use buslens_trainer::{Answer, Choice, Expected, Given, Task, Telegram, Verdict, 
 /// Two rounds of each kind and level: ten questions.
 #[test]
 fn every_question_is_solved() {
-    let mut solved = 0;
+    let (mut solved, mut wrong) = (0, Vec::new());
     for kind in Kind::ALL {
         for level in LEVELS {
             for seed in ["K7QM", "3XV0"] {
                 let round = Round { kind, level, seed: Seed::of(seed).unwrap() };
                 for (index, task) in round.questions().iter().enumerate() {
-                    let what = format!("{}.{}: {}", round.place(), index + 1, task.question);
-                    let answer = solve(task).unwrap_or_else(|| panic!("not solved: {what}"));
-                    let verdict = grade(task, &answer);
-                    assert!(
-                        verdict.is_right(),
-                        "{what}\n{answer:?}\n{verdict:?}\nit is {}",
-                        task.expected.text()
-                    );
-                    solved += 1;
+                    let verdict = solve(task).map(|answer| (grade(task, &answer), answer));
+                    if verdict.as_ref().is_some_and(|(verdict, _)| verdict.is_right()) {
+                        solved += 1;
+                    } else {
+                        let (place, right) = (round.place(), task.expected.text());
+                        wrong.push(format!(
+                            "{place}.{}: {}\n{verdict:?}\nit is {right}",
+                            index + 1,
+                            task.question
+                        ));
+                    }
                 }
             }
         }
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
     assert_eq!(solved, 180);
 }
 
@@ -187,12 +190,17 @@ fn choice(task: &Task, choices: &[Choice]) -> Option<Answer> {
     if let Some(code) = detail.exception {
         return place(["function", "no such register", "this value", "failed"][usize::from(code) - 1]);
     }
-    if detail.coils {
-        let first = usize::from(all.first()?.detail()?.start?);
-        let on = |choice: &Choice| {
-            let coil = numbers(&choice.text)[0] as usize - first;
-            detail.values[coil / 8] >> (coil % 8) & 1 == 1
+    if task.question.contains("coils") {
+        let number = |telegram: &Telegram, role: Role| {
+            telegram
+                .fields(false)
+                .iter()
+                .find(|field| field.spec.role == role)
+                .and_then(|field| field.value.raw())
         };
+        let first = number(all.first()?, Role::Address)?;
+        let bits = number(last, Role::Data)?;
+        let on = |choice: &Choice| bits >> (numbers(&choice.text)[0] as u64 - first) & 1 == 1;
         return choices.iter().position(on).map(Answer::Choice);
     }
     let said = detail.said.to_string();
@@ -213,13 +221,14 @@ fn choice(task: &Task, choices: &[Choice]) -> Option<Answer> {
     None
 }
 
-/// Every byte with every other value, with the checksum that belongs to it: which one makes it what it should be?
+/// Every byte with every other value, with the checksum that belongs to it: which one makes it what it should be,
+/// with the fewest problems?
 fn wrong_byte(task: &Task, telegram: &Telegram) -> Option<Answer> {
     let wanted =
         task.question.strip_prefix("This was to be: ").and_then(|rest| rest.split(". One byte").next());
     let rtu = telegram.protocol.key == "modbus-rtu";
     let body = telegram.bytes.len() - if rtu { 2 } else { 0 };
-    let mut found = Vec::new();
+    let (mut fewest, mut found) = (usize::MAX, Vec::new());
     for at in 0..body {
         for byte in 0..=255 {
             let mut bytes = telegram.bytes[..body].to_vec();
@@ -233,12 +242,21 @@ fn wrong_byte(task: &Task, telegram: &Telegram) -> Option<Answer> {
             let tried = telegram.with(bytes);
             let detail = tried.detail()?;
             let fits = match wanted {
-                Some(wanted) => {
-                    detail.said.to_string().eq_ignore_ascii_case(wanted) && detail.problems().is_empty()
+                Some(wanted) => detail.said.to_string().eq_ignore_ascii_case(wanted),
+                None => {
+                    detail.exception.is_none()
+                        && same_unit(&tried)
+                        && detail.check().is_some_and(|check| check.ok())
                 }
-                None => detail.problems().is_empty() && detail.exception.is_none() && same_unit(&tried),
             };
-            if fits && !found.contains(&at) {
+            let problems = detail.problems().len();
+            if !fits || problems > fewest {
+                continue;
+            }
+            if problems < fewest {
+                (fewest, found) = (problems, Vec::new());
+            }
+            if !found.contains(&at) {
                 found.push(at);
             }
         }
