@@ -91,9 +91,11 @@ pub struct Traffic {
     pub(super) known: Known,
     /// A text holds nothing but what should be telegrams.
     pub(super) typed: bool,
-    /// Lines of a text without bytes, or with pieces that are no telegrams: number and place.
+    /// Lines of a text with pieces that are no telegrams: number and place.
     pub(super) passed: Vec<(u32, u64)>,
-    /// Those of them that no telegram can stand in any more.
+    /// Lines of a text that tell nothing by bytes.
+    pub(super) unread: Vec<(u32, u64)>,
+    /// Those of both that no telegram can stand in any more.
     pub(super) lines: Lines,
     /// Entries that turned out to be parts of others, of those that are not settled.
     pub(super) gone: Vec<u32>,
@@ -164,6 +166,7 @@ impl Traffic {
             known: Known::default(),
             typed: true,
             passed: Vec::new(),
+            unread: Vec::new(),
             lines: Lines::default(),
             gone: Vec::new(),
             latest_piece: Latest::default(),

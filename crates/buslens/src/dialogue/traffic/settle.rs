@@ -21,7 +21,7 @@ impl Traffic {
         while self.entries.len() >= BLOCK + BEHIND {
             self.settle(self.end_of_block());
         }
-        if self.passed.len() >= 2 * BLOCK {
+        if self.passed.len() + self.unread.len() >= 2 * BLOCK {
             match line {
                 // What has no lines has none to list: so many show that something else is there.
                 0 => self.passed.truncate(BLOCK),
@@ -33,9 +33,9 @@ impl Traffic {
         }
     }
 
-    /// A line of a text has no bytes.
+    /// A line of a text tells nothing by bytes.
     pub fn pass(&mut self, line: u32, offset: u64) {
-        self.passed.push((line, offset));
+        self.unread.push((line, offset));
         self.settle_blocks(line);
     }
 
@@ -89,10 +89,12 @@ impl Traffic {
 
     /// No telegram will be found in lines before this one.
     fn close_lines(&mut self, line: u32) {
-        self.passed.sort_unstable();
-        self.passed.dedup();
-        let closed = self.passed.partition_point(|(passed, _)| *passed < line);
-        self.passed.drain(..closed).for_each(|passed| self.lines.push(passed));
+        let is_before = |(passed, _): &mut (u32, u64)| *passed < line;
+        let mut closed: Vec<_> = self.unread.extract_if(.., is_before).collect();
+        closed.extend(self.passed.extract_if(.., is_before));
+        closed.sort_unstable();
+        closed.dedup();
+        closed.into_iter().for_each(|passed| self.lines.push(passed));
     }
 
     /// Lines of a text that hold no telegram, as far as all is settled.
