@@ -295,7 +295,7 @@ async fn a_log_proposes_the_devices_of_its_units() -> Result {
     page.view("devices").await?;
     page.until(".units .why", "Unit 1 reads well as Endress+Hauser Memograph M RSG45").await?;
     assert_eq!(page.accessibility().await?, [""; 0]);
-    page.press_button("Unit 1 is Endress+Hauser Memograph M RSG45").await?;
+    page.press_button("Use it: unit 1 is Endress+Hauser Memograph M RSG45").await?;
     page.until(CHANGES, "Unit 1 is Endress+Hauser Memograph M RSG45.").await?;
     page.view("read").await?;
     page.until(".rows .row", "Universal channel 1").await?;

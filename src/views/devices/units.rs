@@ -141,7 +141,7 @@ fn UnitRow(row: Row) -> impl IntoView {
             <button
                 type="button"
                 class="button low"
-                aria-label=format!("Unit {unit} is {label}")
+                aria-label=format!("Use it: unit {unit} is {label}")
                 on:click=move |_| choose(key)
             >
                 "Use it"
