@@ -117,7 +117,8 @@ pub fn bytes_said(span: Span) -> String {
 /// A sentence that begins with a capital.
 pub fn sentence(text: &str) -> String {
     let mut rest = text.chars();
-    rest.next().map_or(String::new(), |first| std::iter::once(first.to_ascii_uppercase()).chain(rest).collect())
+    rest.next()
+        .map_or(String::new(), |first| std::iter::once(first.to_ascii_uppercase()).chain(rest).collect())
 }
 
 /// A label within a sentence; abbreviations stay as they are.

@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 
 use crate::components::byte_strip::role_class;
-use buslens::field::{Message, in_order, Order, Role, Spec, hex, hex_value};
+use buslens::field::{Message, Order, Role, Spec, hex, hex_value, in_order};
 use buslens::tool::{Row, Size};
 
 /// A field, or a group or list of them.
