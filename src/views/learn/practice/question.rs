@@ -48,7 +48,8 @@ pub fn Asked(task: Task, key: Key, label: &'static str, on_next: Callback<()>) -
         }
     });
     let lights = Lights::new();
-    let alone = task.given.len() == 1 && !matches!(task.expected, Expected::Byte { .. });
+    let alone =
+        task.given.len() == 1 && !matches!(task.expected, Expected::Byte { .. } | Expected::Blanks { .. });
     let last = task.given.len().saturating_sub(1);
     let given = task.given.iter().cloned().enumerate().map(|(at, given)| {
         // A byte is chosen in the last one.
