@@ -5,6 +5,7 @@
 
 use super::entry::{Entry, Hint, NO_TIME, NOBODY, Role, Written};
 use super::packed::{Packed, Rows};
+use super::statistics::Counts;
 use crate::field::Direction;
 use crate::frame::Verdict;
 
@@ -15,6 +16,7 @@ pub struct Entries {
     kept: Kept,
     /// The last time that was told.
     time: i64,
+    counts: Counts,
 }
 
 /// Time, offset, line, bytes of others before it in that, distance to its partner, port, kind, place among the
@@ -22,6 +24,7 @@ pub struct Entries {
 const COLUMNS: usize = 9;
 const TIME: usize = 0;
 const KIND: usize = 6;
+const AT: usize = 7;
 
 impl Entries {
     pub fn len(&self) -> usize {
@@ -39,7 +42,7 @@ impl Entries {
     /// The time of an entry, if it has one.
     pub fn time(&self, index: usize) -> Option<i64> {
         let [time, kind] = self.rows.numbers(index, [TIME, KIND])?;
-        (kind & 1 == 1).then_some(time as i64)
+        (kind >> TIMED & 1 == 1).then_some(time as i64)
     }
 
     /// All of them in their order. That is quicker than one by one.
@@ -57,7 +60,12 @@ impl Entries {
         self.rows.memory() + self.kept.blocks.iter().map(Vec::capacity).sum::<usize>()
     }
 
+    pub(super) fn counts(&self) -> &Counts {
+        &self.counts
+    }
+
     pub(super) fn push(&mut self, entry: &Entry, bytes: &[u8]) {
+        self.counts.add(entry);
         let at = match entry.written {
             Some(_) => self.kept.end(),
             None => self.kept.push(bytes),
@@ -66,13 +74,14 @@ impl Entries {
         if entry.time != NO_TIME {
             self.time = entry.time;
         }
-        self.rows.push(pack(self.len(), &Entry { at, ..*entry }, self.time));
+        self.rows.push(pack(self.len(), entry, at, self.time));
     }
 
-    /// Another partner, or who speaks, turned out to be another.
+    /// Another partner, or who speaks, turned out to be another. Its bytes stay where they are.
     pub(super) fn set(&mut self, index: usize, entry: &Entry) {
         if let Some(before) = self.rows.get(index) {
-            self.rows.set(index, pack(index, entry, before[TIME] as i64));
+            self.rows.set(index, pack(index, entry, before[AT], before[TIME] as i64));
+            self.counts.replace(&unpack(index, before), entry);
         }
     }
 }
@@ -155,7 +164,7 @@ impl Kept {
 }
 
 /// An entry as numbers that are small, or much like those of its neighbours.
-fn pack(index: usize, entry: &Entry, time: i64) -> [u64; COLUMNS] {
+fn pack(index: usize, entry: &Entry, at: u64, time: i64) -> [u64; COLUMNS] {
     let partner = match entry.partner {
         NOBODY => 0,
         // Those behind it are even.
@@ -173,7 +182,7 @@ fn pack(index: usize, entry: &Entry, time: i64) -> [u64; COLUMNS] {
         partner,
         entry.port.into(),
         kind(entry),
-        entry.at,
+        at,
         written,
     ]
 }
@@ -183,31 +192,31 @@ fn unpack(index: usize, row: [u64; COLUMNS]) -> Entry {
     let bit = |at: u32| kind >> at & 1 == 1;
     let number = |at: u32, bits: u32| (kind >> at) as usize & ((1 << bits) - 1);
     Entry {
-        time: if bit(0) { time as i64 } else { NO_TIME },
+        time: if bit(TIMED) { time as i64 } else { NO_TIME },
         at,
         offset,
         written: (written != 0).then_some(Written { from: (written >> 8) as u32, step: written as u8 }),
         line: line as u32,
         skip: skip as u16,
-        length: (kind >> 48) as u16,
+        length: (kind >> 25) as u16,
         partner: match partner {
             0 => NOBODY,
             odd if odd % 2 == 1 => (index as u64 - odd / 2) as u32,
             even => (index as u64 + even / 2) as u32,
         },
         port: port as u16,
-        protocol: number(1, 4) as u8,
-        unit: bit(5).then_some((kind >> 32) as u8),
-        function: (kind >> 40) as u8,
-        verdict: VERDICTS[number(6, 2)],
-        direction: if bit(8) { Direction::Response } else { Direction::Request },
-        role: ROLES[number(9, 3)],
-        sides: [bit(12), bit(13)],
-        hint: HINTS[number(14, 3)],
+        protocol: number(45, 4) as u8,
+        unit: bit(44).then_some((kind >> 9) as u8),
+        function: (kind >> 17) as u8,
+        verdict: VERDICTS[number(41, 2)],
+        direction: if bit(0) { Direction::Response } else { Direction::Request },
+        role: ROLES[number(3, 3)],
+        sides: [bit(1), bit(2)],
+        hint: HINTS[number(6, 3)],
     }
 }
 
-/// All that many entries have in common.
+/// All that many entries have in common; what differs more often has the lower bits.
 fn kind(entry: &Entry) -> u64 {
     let hint = match entry.hint {
         Hint::None => 0,
@@ -216,19 +225,22 @@ fn kind(entry: &Entry) -> u64 {
         Hint::Logger => 3,
         Hint::Other => 4,
     };
-    u64::from(entry.time != NO_TIME)
-        | u64::from(entry.protocol) << 1
-        | u64::from(entry.unit.is_some()) << 5
-        | (entry.verdict as u64) << 6
-        | u64::from(entry.direction == Direction::Response) << 8
-        | (entry.role as u64) << 9
-        | u64::from(entry.sides[0]) << 12
-        | u64::from(entry.sides[1]) << 13
-        | hint << 14
-        | u64::from(entry.unit.unwrap_or_default()) << 32
-        | u64::from(entry.function) << 40
-        | u64::from(entry.length) << 48
+    u64::from(entry.direction == Direction::Response)
+        | u64::from(entry.sides[0]) << 1
+        | u64::from(entry.sides[1]) << 2
+        | (entry.role as u64) << 3
+        | hint << 6
+        | u64::from(entry.unit.unwrap_or_default()) << 9
+        | u64::from(entry.function) << 17
+        | u64::from(entry.length) << 25
+        | (entry.verdict as u64) << 41
+        | u64::from(entry.time != NO_TIME) << TIMED
+        | u64::from(entry.unit.is_some()) << 44
+        | u64::from(entry.protocol) << 45
 }
+
+/// The bit of what has a time.
+const TIMED: u32 = 43;
 
 /// By their numbers.
 const VERDICTS: [Verdict; 4] = [Verdict::Right, Verdict::Wrong, Verdict::Unchecked, Verdict::NoCheck];
@@ -305,7 +317,8 @@ mod tests {
         let mut entries = Entries::default();
         (1..3000).for_each(|n| entries.push(&entry(n), &[]));
         let before = entries.get(20).unwrap();
-        entries.set(20, &Entry { partner: 2900, sides: [true, false], ..before });
+        // Among the bytes in hand it was elsewhere.
+        entries.set(20, &Entry { partner: 2900, sides: [true, false], at: before.at + 7, ..before });
         let after = entries.get(20).unwrap();
         assert_eq!((after.partner(), after.sides), (Some(2900), [true, false]));
         assert_eq!(Entry { partner: before.partner, sides: before.sides, ..after }, before);

@@ -140,6 +140,11 @@ impl Entry {
         self.asks() & (self.partner == NOBODY)
     }
 
+    /// Whether it is a response whose request is known.
+    pub fn answers(&self) -> bool {
+        (self.direction == Direction::Response) & (self.partner != NOBODY)
+    }
+
     /// The function code without the bit of an exception.
     pub fn plain_function(&self) -> u8 {
         self.function & !crate::modbus::EXCEPTION

@@ -8,13 +8,10 @@ use std::fmt;
 /// Rows of `N` numbers each.
 pub(super) struct Packed<const N: usize> {
     chunks: Vec<Chunk>,
-    /// The columns of the chunk that is not full yet.
-    open: Columns<N>,
+    /// The rows of the chunk that is not full yet.
+    open: Vec<[u64; N]>,
     desk: Desk,
 }
-
-/// The columns of some rows.
-type Columns<const N: usize> = [Vec<u64>; N];
 
 /// So many rows are packed together: as many as the nearest cache of a processor holds.
 const CHUNK: usize = 256;
@@ -28,7 +25,7 @@ const HEAD: usize = 2;
 /// Where a column is in its chunk, and how it is packed.
 #[derive(Clone, Copy)]
 struct Head {
-    /// What is added to each of its numbers, where it has no list.
+    /// The bits that all of its numbers have in common, above those that are written, where it has no list.
     base: u64,
     /// How many bits each number has.
     width: u32,
@@ -40,23 +37,21 @@ struct Head {
 
 impl<const N: usize> Default for Packed<N> {
     fn default() -> Self {
-        Self { chunks: Vec::new(), open: [const { Vec::new() }; N], desk: Desk::default() }
+        Self { chunks: Vec::new(), open: Vec::new(), desk: Desk::default() }
     }
 }
 
 impl<const N: usize> Packed<N> {
     pub fn len(&self) -> usize {
-        self.chunks.len() * CHUNK + self.open[0].len()
+        self.chunks.len() * CHUNK + self.open.len()
     }
 
     #[inline]
     pub fn push(&mut self, row: [u64; N]) {
-        for (column, number) in self.open.iter_mut().zip(row) {
-            column.push(number);
-        }
-        if self.open[0].len() == CHUNK {
+        self.open.push(row);
+        if self.open.len() == CHUNK {
             self.chunks.push(self.desk.pack(&self.open));
-            self.open.iter_mut().for_each(Vec::clear);
+            self.open.clear();
         }
     }
 
@@ -70,37 +65,31 @@ impl<const N: usize> Packed<N> {
         if let Some(chunk) = self.chunks.get(index / CHUNK) {
             return Some(columns.map(|column| Head::of(chunk, column).number(chunk, index % CHUNK)));
         }
-        let at = index - self.chunks.len() * CHUNK;
-        (at < self.open[0].len()).then(|| columns.map(|column| self.open[column][at]))
+        let row = self.open.get(index - self.chunks.len() * CHUNK)?;
+        Some(columns.map(|column| row[column]))
     }
 
     /// Puts another row in place of the one at `index`, if there is one. That packs its chunk anew.
     pub fn set(&mut self, index: usize, row: [u64; N]) {
-        let packed = self.chunks.len() * CHUNK;
-        let put = |columns: &mut Columns<N>, at: usize| {
-            for (column, number) in columns.iter_mut().zip(row) {
-                column[at] = number;
-            }
-        };
         if let Some(chunk) = self.chunks.get_mut(index / CHUNK) {
-            let mut columns = [const { Vec::new() }; N];
-            unpack(chunk, &mut columns);
-            put(&mut columns, index % CHUNK);
-            *chunk = self.desk.pack(&columns);
-        } else if index < packed + self.open[0].len() {
-            put(&mut self.open, index - packed);
+            let mut rows = Vec::new();
+            unpack(chunk, &mut rows);
+            rows[index % CHUNK] = row;
+            *chunk = self.desk.pack(&rows);
+        } else if let Some(open) = self.open.get_mut(index - self.chunks.len() * CHUNK) {
+            *open = row;
         }
     }
 
     /// All rows in their order; a chunk is unpacked at a time.
     pub fn iter(&self) -> Rows<'_, N> {
-        Rows { packed: self, columns: [const { Vec::new() }; N], next: 0 }
+        Rows { packed: self, chunk: Vec::new(), next: 0 }
     }
 
     /// How many bytes of memory it takes.
     pub fn memory(&self) -> usize {
         let chunks: usize = self.chunks.iter().map(|chunk| size_of_val(&chunk[..])).sum();
-        let open: usize = self.open.iter().map(|column| column.capacity() * size_of::<u64>()).sum();
+        let open = self.open.capacity() * size_of::<[u64; N]>();
         chunks + self.chunks.capacity() * size_of::<Chunk>() + open
     }
 }
@@ -115,8 +104,8 @@ impl<const N: usize> fmt::Debug for Packed<N> {
 #[derive(Clone)]
 pub(super) struct Rows<'a, const N: usize> {
     packed: &'a Packed<N>,
-    /// The columns of the chunk in hand.
-    columns: Columns<N>,
+    /// The rows of the chunk in hand.
+    chunk: Vec<[u64; N]>,
     next: usize,
 }
 
@@ -128,15 +117,13 @@ impl<const N: usize> Iterator for Rows<'_, N> {
         let at = self.next % CHUNK;
         if at == 0 {
             match self.packed.chunks.get(self.next / CHUNK) {
-                Some(chunk) => unpack(chunk, &mut self.columns),
-                None => self.columns.clone_from(&self.packed.open),
+                Some(chunk) => unpack(chunk, &mut self.chunk),
+                None => self.chunk.clone_from(&self.packed.open),
             }
         }
-        if at >= self.columns[0].len() {
-            return None;
-        }
+        let row = *self.chunk.get(at)?;
         self.next += 1;
-        Some(std::array::from_fn(|column| self.columns[column][at]))
+        Some(row)
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
@@ -169,11 +156,16 @@ impl Head {
                 let (word, shift) = (self.from + self.listed + first / 64, first % 64);
                 let low = chunk[word] >> shift;
                 let high = if shift + width as usize > 64 { chunk[word + 1] << (64 - shift) } else { 0 };
-                (low | high) & (u64::MAX >> (64 - width))
+                (low | high) & mask(width)
             }
         };
-        if self.listed > 0 { chunk[self.from + bits as usize] } else { self.base.wrapping_add(bits) }
+        if self.listed > 0 { chunk[self.from + bits as usize] } else { self.base | bits }
     }
+}
+
+/// The lowest bits, at least one.
+fn mask(width: u32) -> u64 {
+    u64::MAX >> (u64::BITS - width)
 }
 
 /// How many bits it takes to tell numbers up to `most` apart.
@@ -189,22 +181,32 @@ struct Desk {
 }
 
 impl Desk {
-    /// Packs columns. They have at least one row.
-    fn pack<const N: usize>(&mut self, columns: &Columns<N>) -> Chunk {
+    /// Packs rows, of which there is at least one.
+    fn pack<const N: usize>(&mut self, rows: &[[u64; N]]) -> Chunk {
         self.words.clear();
         self.words.resize(N * HEAD, 0);
-        for (place, column) in columns.iter().enumerate() {
-            let (least, most) =
-                column.iter().fold((u64::MAX, 0), |(least, most), it| (least.min(*it), most.max(*it)));
-            let width = width(most.wrapping_sub(least));
-            let mut head = Head { base: least, width, listed: 0, from: self.words.len() };
-            match self.list.width(column, width) {
-                Some(width) => {
-                    (head.width, head.listed) = (width, self.list.numbers.len());
-                    self.words.extend_from_slice(&self.list.numbers);
-                    write(&mut self.words, self.list.places.iter().map(|place| u64::from(*place)), width);
+        let first = rows[0];
+        let mut varies = [0; N];
+        for row in rows {
+            varies = std::array::from_fn(|place| varies[place] | (row[place] ^ first[place]));
+        }
+        for (place, varies) in varies.into_iter().enumerate() {
+            let width = width(varies);
+            let mut head = Head { base: first[place], width, listed: 0, from: self.words.len() };
+            // Most columns are the same all along.
+            if width > 0 {
+                let column = rows.iter().map(|row| row[place]);
+                match self.list.width(column.clone(), width) {
+                    Some(width) => {
+                        (head.width, head.listed) = (width, self.list.numbers.len());
+                        self.words.extend_from_slice(&self.list.numbers);
+                        write(&mut self.words, self.list.places.iter().map(|place| u64::from(*place)), width);
+                    }
+                    None => {
+                        head.base &= !mask(width);
+                        write(&mut self.words, column.map(|number| number & mask(width)), width);
+                    }
                 }
-                None => write(&mut self.words, column.iter().map(|number| number.wrapping_sub(least)), width),
             }
             self.words[place * HEAD..][..HEAD].copy_from_slice(&head.words());
         }
@@ -212,11 +214,9 @@ impl Desk {
     }
 }
 
-/// Writes numbers of so many bits.
+/// Writes numbers of so many bits, at least one.
+#[inline]
 fn write(words: &mut Vec<u64>, numbers: impl Iterator<Item = u64>, width: u32) {
-    if width == 0 {
-        return;
-    }
     let (mut word, mut used) = (0, 0);
     for number in numbers {
         word |= number << used;
@@ -234,13 +234,13 @@ fn write(words: &mut Vec<u64>, numbers: impl Iterator<Item = u64>, width: u32) {
 }
 
 /// Reads all rows of a chunk.
-fn unpack<const N: usize>(chunk: &[u64], columns: &mut Columns<N>) {
-    for (place, column) in columns.iter_mut().enumerate() {
-        let head = Head::of(chunk, place);
-        column.clear();
-        match head.width {
-            0 => column.resize(CHUNK, head.number(chunk, 0)),
-            _ => column.extend((0..CHUNK).map(|row| head.number(chunk, row))),
+fn unpack<const N: usize>(chunk: &[u64], rows: &mut Vec<[u64; N]>) {
+    let heads: [Head; N] = std::array::from_fn(|column| Head::of(chunk, column));
+    rows.clear();
+    rows.resize(CHUNK, heads.map(|head| head.base));
+    for (column, head) in heads.iter().enumerate().filter(|(_, head)| head.width > 0) {
+        for (row, numbers) in rows.iter_mut().enumerate() {
+            numbers[column] = head.number(chunk, row);
         }
     }
 }
@@ -263,22 +263,22 @@ impl List {
 
     /// Lists the numbers of a column, if that takes less room than `width` bits for each; returns how many bits
     /// their places have.
-    fn width(&mut self, numbers: &[u64], width: u32) -> Option<u32> {
+    fn width(&mut self, numbers: impl Iterator<Item = u64>, width: u32) -> Option<u32> {
         if width < Self::LEAST || !self.take(numbers) {
             return None;
         }
         let listed = self::width(self.numbers.len() as u64 - 1);
-        let saved = (width - listed) as usize * numbers.len();
+        let saved = (width - listed) as usize * self.places.len();
         (saved > self.numbers.len() * u64::BITS as usize).then_some(listed)
     }
 
     /// Lists the numbers; `false` if too many differ.
-    fn take(&mut self, numbers: &[u64]) -> bool {
+    fn take(&mut self, numbers: impl Iterator<Item = u64>) -> bool {
         self.numbers.clear();
         self.places.clear();
         self.slots.clear();
         self.slots.resize(Self::SLOTS, 0);
-        for number in numbers.iter().copied() {
+        for number in numbers {
             let mut slot = (number.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 56) as usize;
             let place = loop {
                 match self.slots[slot].checked_sub(1) {

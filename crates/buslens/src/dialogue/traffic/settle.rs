@@ -76,6 +76,10 @@ impl Traffic {
         let in_hand = self.lanes.iter().filter_map(|lane| lane.rows.first()).map(|row| row.line);
         let next = self.entries.first().map(|entry| entry.line).into_iter().chain(in_hand).min();
         self.close_lines(next.unwrap_or(0));
+        // The next block takes the same room.
+        block.clear();
+        block.append(&mut self.entries);
+        self.entries = block;
     }
 
     /// Lines that have a telegram were not passed.

@@ -3,9 +3,7 @@
 use std::collections::HashMap;
 
 use super::collect::Traffic;
-use super::entries::Entries;
 use super::entry::{Entry, Role};
-use crate::field::Direction;
 use crate::frame::Verdict;
 
 /// What happened in a log.
@@ -60,102 +58,159 @@ pub struct Minutes {
     pub count: usize,
 }
 
-#[derive(Default)]
-struct Gathered {
-    dialog: Dialog,
+/// What is counted of telegrams while they are settled: of each by itself, in no order.
+#[derive(Debug, Default)]
+pub(super) struct Counts {
+    /// Of each role, and of each verdict, by their numbers.
+    roles: [usize; 8],
+    verdicts: [usize; 4],
+    bytes_discarded: usize,
+    times: Option<(i64, i64)>,
+    dialogs: Vec<Dialog>,
+    places: Places,
+}
+
+impl Counts {
+    #[inline]
+    pub fn add(&mut self, entry: &Entry) {
+        self.count::<1>(entry);
+    }
+
+    /// What was added as `before` is `entry` now.
+    pub fn replace(&mut self, before: &Entry, entry: &Entry) {
+        self.count::<-1>(before);
+        self.count::<1>(entry);
+    }
+
+    #[inline]
+    fn count<const BY: isize>(&mut self, entry: &Entry) {
+        let add = |number: &mut usize, is: bool| *number = number.wrapping_add_signed(BY * isize::from(is));
+        add(&mut self.roles[entry.role as usize], true);
+        if entry.role == Role::Discarded {
+            self.bytes_discarded += usize::from(entry.length);
+            return;
+        }
+        if let Some(time) = entry.time() {
+            let (first, last) = self.times.unwrap_or((time, time));
+            self.times = Some((first.min(time), last.max(time)));
+        }
+        if entry.role == Role::Copy {
+            return;
+        }
+        add(&mut self.verdicts[entry.verdict as usize], true);
+        if entry.role == Role::Echo {
+            return;
+        }
+        let place = self.places.of(entry);
+        if place == self.dialogs.len() {
+            let (port, unit, function) = (entry.port, entry.unit, entry.plain_function());
+            self.dialogs.push(Dialog { port, unit, function, ..Dialog::default() });
+        }
+        let dialog = &mut self.dialogs[place];
+        add(&mut dialog.telegrams, true);
+        add(&mut dialog.requests, entry.asks());
+        add(&mut dialog.answered, entry.answers());
+        add(&mut dialog.unanswered, entry.unanswered());
+        add(&mut dialog.retries, entry.role == Role::Retry);
+        add(&mut dialog.exceptions, entry.refuses());
+        add(&mut dialog.check_failed, entry.verdict == Verdict::Wrong);
+    }
+}
+
+/// Port, unit and function in one number.
+fn key(entry: &Entry) -> u32 {
+    u32::from(entry.port) << 16
+        | u32::from(entry.unit.is_some()) << 15
+        | u32::from(entry.unit.unwrap_or_default()) << 7
+        | u32::from(entry.plain_function())
+}
+
+/// The places of dialogs, in the order in which they are met.
+#[derive(Clone, Debug, Default)]
+struct Places {
+    all: HashMap<u32, usize>,
+    /// The last one for each shelf of keys, so that hardly any is looked up.
+    recent: Vec<(u32, usize)>,
+}
+
+impl Places {
+    const SHELVES: usize = 256;
+
+    #[inline]
+    fn of(&mut self, entry: &Entry) -> usize {
+        let key = key(entry);
+        let shelf = (key ^ key >> 7 ^ key << 4) as usize % Self::SHELVES;
+        match self.recent.get(shelf) {
+            Some((recent, place)) if *recent == key && *place != usize::MAX => *place,
+            _ => self.look_up(key, shelf),
+        }
+    }
+
+    #[cold]
+    fn look_up(&mut self, key: u32, shelf: usize) -> usize {
+        let fresh = self.all.len();
+        let place = *self.all.entry(key).or_insert(fresh);
+        self.recent.resize(Self::SHELVES, (0, usize::MAX));
+        self.recent[shelf] = (key, place);
+        place
+    }
+}
+
+/// The times of a dialog.
+#[derive(Clone, Default)]
+struct Timing {
     latencies: Vec<u32>,
     silent: Vec<i64>,
 }
 
-/// Counts.
+/// The numbers of what is settled so far.
 pub fn statistics(traffic: &Traffic) -> Statistics {
+    let counts = traffic.entries().counts();
+    let role = |role: Role| counts.roles[role as usize];
+    let mut dialogs = match counts.times {
+        Some((first, last)) => {
+            let timings = timings(traffic).into_iter().zip(&counts.dialogs);
+            timings.map(|(timing, dialog)| timing.close(last - first, dialog)).collect()
+        }
+        None => counts.dialogs.clone(),
+    };
+    dialogs.sort_unstable_by_key(|dialog| (dialog.port, dialog.unit, dialog.function));
+    let sum = |number: fn(&Dialog) -> usize| dialogs.iter().map(number).sum();
+    Statistics {
+        telegrams: counts.verdicts.iter().sum(),
+        pairs: sum(|dialog| dialog.answered),
+        unanswered: sum(|dialog| dialog.unanswered),
+        retries: role(Role::Retry),
+        unasked: role(Role::Unasked),
+        late: role(Role::Late),
+        echoes: role(Role::Echo),
+        copies: role(Role::Copy),
+        broadcasts: role(Role::Broadcast),
+        exceptions: sum(|dialog| dialog.exceptions),
+        check_failed: counts.verdicts[Verdict::Wrong as usize],
+        unchecked: counts.verdicts[Verdict::Unchecked as usize],
+        bytes_discarded: counts.bytes_discarded,
+        times: counts.times,
+        dialogs,
+    }
+}
+
+/// The times of all dialogs, by their places.
+fn timings(traffic: &Traffic) -> Vec<Timing> {
     let entries = traffic.entries();
-    let mut all = Statistics::default();
-    let mut dialogs = Dialogs { all: Vec::new(), places: HashMap::new(), recent: [0; 256] };
+    let mut places = entries.counts().places.clone();
+    let mut all = vec![Timing::default(); entries.counts().dialogs.len()];
     for entry in entries {
-        if entry.role == Role::Discarded {
-            all.bytes_discarded += usize::from(entry.length);
-            continue;
+        if entry.unanswered() {
+            all[places.of(&entry)].silent.extend(entry.time());
         }
-        if let Some(time) = entry.time() {
-            let (first, last) = all.times.unwrap_or((time, time));
-            all.times = Some((first.min(time), last.max(time)));
-        }
-        if entry.role == Role::Copy {
-            all.copies += 1;
-            continue;
-        }
-        all.telegrams += 1;
-        all.check_failed += usize::from(entry.verdict == Verdict::Wrong);
-        all.unchecked += usize::from(entry.verdict == Verdict::Unchecked);
-        all.unanswered += usize::from(entry.unanswered());
-        all.exceptions += usize::from(entry.refuses());
-        all.pairs += usize::from(entry.direction == Direction::Response && entry.partner().is_some());
-        match entry.role {
-            Role::Retry => all.retries += 1,
-            Role::Unasked => all.unasked += 1,
-            Role::Late => all.late += 1,
-            Role::Echo => all.echoes += 1,
-            Role::Broadcast => all.broadcasts += 1,
-            Role::Plain | Role::Copy | Role::Discarded => {}
-        }
-        if entry.role != Role::Echo {
-            count(dialogs.of(&entry), &entry, entries);
+        if let Some(request) = entry.partner().filter(|_| entry.answers())
+            && let Some(latency) = latency(entry.time(), entries.time(request))
+        {
+            all[places.of(&entry)].latencies.push(latency);
         }
     }
-    let whole = all.times.map_or(0, |(first, last)| last - first);
-    all.dialogs = dialogs.all.into_iter().map(|gathered| gathered.close(whole)).collect();
-    all.dialogs.sort_unstable_by_key(|dialog| (dialog.port, dialog.unit, dialog.function));
     all
-}
-
-/// What is gathered so far, and where whose numbers are.
-struct Dialogs {
-    all: Vec<Gathered>,
-    places: HashMap<(u16, Option<u8>, u8), usize>,
-    /// The last place for each [`shelf`](Self::of) of keys, so that hardly any is looked up.
-    recent: [usize; 256],
-}
-
-impl Dialogs {
-    fn of(&mut self, entry: &Entry) -> &mut Gathered {
-        let (port, unit, function) = (entry.port, entry.unit, entry.plain_function());
-        let shelf = usize::from(unit.unwrap_or_default() ^ function.rotate_left(4) ^ port as u8);
-        let recent = self.recent[shelf];
-        let same =
-            |it: &Gathered| (it.dialog.port, it.dialog.unit, it.dialog.function) == (port, unit, function);
-        if self.all.get(recent).is_none_or(|it| !same(it)) {
-            let fresh = self.all.len();
-            let place = *self.places.entry((port, unit, function)).or_insert(fresh);
-            if place == fresh {
-                let dialog = Dialog { port, unit, function, ..Dialog::default() };
-                self.all.push(Gathered { dialog, ..Gathered::default() });
-            }
-            self.recent[shelf] = place;
-        }
-        &mut self.all[self.recent[shelf]]
-    }
-}
-
-fn count(gathered: &mut Gathered, entry: &Entry, entries: &Entries) {
-    let dialog = &mut gathered.dialog;
-    dialog.telegrams += 1;
-    dialog.requests += usize::from(entry.asks());
-    dialog.unanswered += usize::from(entry.unanswered());
-    dialog.retries += usize::from(entry.role == Role::Retry);
-    dialog.exceptions += usize::from(entry.refuses());
-    dialog.check_failed += usize::from(entry.verdict == Verdict::Wrong);
-    if entry.unanswered() {
-        gathered.silent.extend(entry.time());
-    }
-    if entry.direction == Direction::Response
-        && let Some(request) = entry.partner()
-    {
-        dialog.answered += 1;
-        if let Some(latency) = latency(entry.time(), entries.time(request)) {
-            gathered.latencies.push(latency);
-        }
-    }
 }
 
 /// Microseconds between a response and its request, by their times.
@@ -163,13 +218,13 @@ pub fn latency(answered: Option<i64>, asked: Option<i64>) -> Option<u32> {
     u32::try_from(answered? - asked?).ok()
 }
 
-impl Gathered {
+impl Timing {
     /// `whole` is how long the log is.
-    fn close(mut self, whole: i64) -> Dialog {
+    fn close(mut self, whole: i64, counted: &Dialog) -> Dialog {
         let middle = self.latencies.len() / 2;
         let median = (!self.latencies.is_empty()).then(|| *self.latencies.select_nth_unstable(middle).1);
         let worst = self.latencies.iter().copied().max();
-        Dialog { median, worst, silent: densest(&mut self.silent, whole), ..self.dialog }
+        Dialog { median, worst, silent: densest(&mut self.silent, whole), ..*counted }
     }
 }
 
