@@ -62,7 +62,8 @@ fn run() -> Result<(), String> {
     let is_kept = purpose != Purpose::Serve;
 
     let template = text("index.html")?;
-    let Compiled { glue, wasm, later } = Compiled::read("page", Path::new(wasm))?;
+    let Compiled { glue, wasm, later } =
+        Compiled::read("page", Path::new(wasm), purpose == Purpose::Release)?;
     let boot = hashed("boot", "js", page::boot(&glue, &wasm, is_kept)?.into_bytes());
     let style = stylesheet(&template, "stylesheet")? + page::NOTE_STYLE;
     let style = hashed("page", "css", page::without_comments(&style).into_bytes());
@@ -123,10 +124,10 @@ struct Compiled {
 }
 
 impl Compiled {
-    fn read(name: &str, path: &Path) -> Result<Compiled, String> {
+    fn read(name: &str, path: &Path, is_packed: bool) -> Result<Compiled, String> {
         let says = |error| format!("wasm-bindgen could not read {}: {error:#}", path.display());
         let parts = path.with_extension("parts");
-        let Split { main, later, link } = split::split(&unused::without(&read(path)?)?, &parts)?;
+        let Split { main, later, link } = split::split(&unused::without(&read(path)?)?, &parts, is_packed)?;
         let mut output = Bindgen::new()
             .input_bytes(name, main)
             .out_name(name)
@@ -165,7 +166,7 @@ impl Compiled {
             .map_err(|error| format!("The glue of {name} cannot be made smaller: {error}."))?;
         Ok(Compiled {
             glue: hashed(name, "js", glue.to_string().into_bytes()),
-            wasm: hashed(name, "wasm", order::ordered(&output.wasm_mut().emit_wasm())?),
+            wasm: hashed(name, "wasm", order::ordered(&output.wasm_mut().emit_wasm(), is_packed)?),
             later,
         })
     }

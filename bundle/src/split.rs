@@ -24,7 +24,7 @@ pub struct Split {
 /// How the first part names the script that loads the others.
 pub const LINK: &str = "./__wasm_split.js";
 
-pub fn split(wasm: &[u8], folder: &Path) -> Result<Split, String> {
+pub fn split(wasm: &[u8], folder: &Path, is_packed: bool) -> Result<Split, String> {
     if let Some(name) = missing_data(wasm)? {
         return Err(format!(
             "The module refers to `{name}`, which is not in it: parts of earlier builds were taken that do not fit \
@@ -50,7 +50,7 @@ pub fn split(wasm: &[u8], folder: &Path) -> Result<Split, String> {
     let mut renamed = BTreeMap::new();
     for path in parts.split_modules {
         let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let content = ordered(&read(&path)?)?;
+        let content = ordered(&read(&path)?, is_packed)?;
         let name = names::hashed("later", "wasm", &content);
         renamed.insert(format!("\"./{stem}.wasm\""), format!("\"./{name}\""));
         later.push(File { name, content });

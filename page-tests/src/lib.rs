@@ -29,7 +29,7 @@ pub const PHONE: (u32, u32) = (390, 844);
 pub const NARROW: (u32, u32) = (320, 640);
 
 /// Every view of the page.
-pub const VIEWS: [&str; 5] = ["#/read", "#/build", "#/check", "#/devices", "#/sheet"];
+pub const VIEWS: [&str; 6] = ["#/read", "#/build", "#/check", "#/devices", "#/learn", "#/sheet"];
 
 /// Is there once the part of the page is that stands around what is read.
 const THERE: &str = ".foot";

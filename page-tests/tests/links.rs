@@ -89,6 +89,8 @@ async fn what_was_put_in_outlasts_other_views() -> Result {
     // Back leads through the views.
     page.fragment().await?;
     page.driver.back().await?;
+    page.until(".views [aria-current]", "Learn").await?;
+    page.driver.back().await?;
     page.until(".views [aria-current]", "Devices").await?;
     page.driver.back().await?;
     page.until(".views [aria-current]", "Check").await?;

@@ -165,12 +165,15 @@ async fn a_thousand_actions_in_each_view_break_nothing() -> Result {
         };
         act();";
     let mut handles = Vec::new();
-    for (seed, view) in (1_u32..).zip(VIEWS) {
+    let learn = ["practice.1.decode.2.K7QM.1", "telegrams", "reference"];
+    let views = VIEWS.map(str::to_owned).into_iter();
+    let views = views.chain(learn.map(|place| format!("#/learn?place={place}")));
+    for (seed, view) in (1_u32..).zip(views) {
         let page = Page::open(DESKTOP, false).await?;
         page.driver.set_script_timeout(std::time::Duration::from_secs(300)).await?;
         page.paste(ALL_SORTS).await?;
         page.fragment().await?;
-        page.driver.execute("location.hash = arguments[0]", vec![json!(view)]).await?;
+        page.driver.execute("location.hash = arguments[0]", vec![json!(&view)]).await?;
         page.fragment().await?;
         let ended = page.driver.execute_async(actions, vec![json!(seed * 7919), json!(1000)]).await?;
         handles.push((view, ended.json().clone(), page.console().await?));
@@ -280,7 +283,7 @@ async fn the_result_is_told_to_screen_readers() -> Result {
 async fn whatever_the_browser_keeps_the_page_starts() -> Result {
     let page = Page::open(DESKTOP, false).await?;
     for value in ["", "x", "z=AAAA", "text=%E0%A4%A&device=%", "file=gone|1|2", &"9".repeat(100_000)] {
-        let script = "for (const key of ['read', 'build', 'check', 'devices', 'settings', 'notes', 'theme']) \
+        let script = "for (const key of ['read', 'build', 'check', 'devices', 'learn', 'lessons', 'own-lessons', 'practice', 'settings', 'notes', 'theme']) \
                       localStorage.setItem('buslens.' + key, arguments[0])";
         page.driver.execute(script, vec![json!(value)]).await?;
         for view in VIEWS {

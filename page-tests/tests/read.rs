@@ -240,7 +240,7 @@ async fn a_byte_is_explained() -> Result {
     page.read_as("Device", "memograph-rsg45").await?;
     assert_eq!(page.text(".lead h2").await?, "Unit 1 answers: Universal channel 1 = 123.456, good.");
     assert_eq!(page.count(".chosen-byte").await?, 0);
-    page.click(".byte-strip [aria-label^='F6, byte 6']").await?;
+    page.click(".byte-strip [aria-label^='F6, '][aria-label$=', byte 6']").await?;
     let said = page.text(".chosen-byte").await?;
     for part in [
         "Byte 6: F6h, 246, 1111 0110",
@@ -257,7 +257,7 @@ async fn a_byte_is_explained() -> Result {
     page.click(".chosen-byte [aria-label=Close]").await?;
     assert_eq!(page.count(".chosen-byte").await?, 0);
     page.click_text(".fold summary", "All interpretations").await?;
-    page.click(".byte-strip [aria-label^='42, byte 5']").await?;
+    page.click(".byte-strip [aria-label^='42, '][aria-label$=', byte 5']").await?;
     page.until(".interpretations .guess", "123.456").await?;
     page.close().await
 }

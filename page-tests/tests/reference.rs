@@ -12,7 +12,10 @@ const REQUEST: &str = ".side[aria-label=Request]";
 /// Types into the search of the reference, and waits for the first row to be of that name.
 async fn look_up(page: &Page, text: &str, first: &str) -> Result {
     page.fill(SEARCH, text).await?;
-    page.until("#found-0 .l", first).await
+    page.until("#found-0 .l", first).await?;
+    // The address follows at the pause, and "back" leads to it.
+    page.fragment().await?;
+    Ok(())
 }
 
 #[tokio::test(flavor = "multi_thread")]
@@ -176,7 +179,10 @@ async fn a_telegram_is_laid_out() -> Result {
     assert_eq!(labels[..6], ["Unit", "Function", "Start", "Quantity", "Bytes", "Values"].map(str::to_owned));
     page.until(".topic .example", "For example: Write to unit 1: Universal channel 6 = 123.456, good.")
         .await?;
-    assert_eq!(page.bytes_in(".topic .example").await?, "01 10 00 D7 00 03 06 00 80 42 F6 E9 79 28 15");
+    assert_eq!(
+        page.bytes_in(".topic .telegram:nth-of-type(1) .example").await?,
+        "01 10 00 D7 00 03 06 00 80 42 F6 E9 79 28 15"
+    );
     assert_eq!(page.accessibility().await?, [""; 0]);
     page.picture("reference-telegram-light").await?;
     // Carried by TCP it has a header and no checksum.

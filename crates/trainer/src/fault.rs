@@ -220,7 +220,8 @@ pub fn telegram(
 
 fn small(text: &str) -> String {
     let mut rest = text.trim_end_matches('.').chars();
-    rest.next().map_or(String::new(), |first| first.to_lowercase().chain(rest).collect())
+    rest.next()
+        .map_or(String::new(), |first| std::iter::once(first.to_ascii_lowercase()).chain(rest).collect())
 }
 
 #[cfg(test)]

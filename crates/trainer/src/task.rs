@@ -1,6 +1,6 @@
 //! What a task is: a question, what is given, and what a right answer is.
 
-use buslens::field::{self, Check, Direction, Field, Format, Order, Role, Span, Spec, Value, hex};
+use buslens::field::{self, Check, Direction, Field, Format, Order, Role, Span, Spec, Value, hex, in_order};
 use buslens::tool::{Detail, Options, Protocol, Report};
 
 use crate::notation::Notation;
@@ -132,8 +132,7 @@ impl Telegram {
         let bare = field::leaves(&detail.fields);
         let mut all: Vec<Field> = bare.iter().filter(|leaf| !covered(leaf)).map(|it| (*it).clone()).collect();
         all.extend(own.iter().map(|it| (*it).clone()));
-        all.sort_by_key(|leaf| leaf.span);
-        all
+        in_order(all, |leaf| leaf.span)
     }
 
     /// The field that byte `at` belongs to, in the words of the device's manual where there are such.

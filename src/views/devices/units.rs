@@ -8,7 +8,7 @@ use super::Remove;
 use super::state::DeviceSettings;
 use crate::views::read::{Mode, ReadState};
 use crate::worker::messages::Proposed;
-use buslens::field::many;
+use buslens::field::{in_order, many};
 use buslens::tool::{PROFILES, Profile, proposals};
 
 /// A unit, and what is known of it.
@@ -39,8 +39,8 @@ pub fn Units() -> impl IntoView {
     let rows = Memo::new(move |_| {
         let named = state.settings().units;
         let seen = seen(read);
-        let mut units: Vec<u8> = named.iter().map(|it| it.unit).chain(seen.iter().copied()).collect();
-        units.sort_unstable();
+        let units = named.iter().map(|it| it.unit).chain(seen.iter().copied());
+        let mut units = in_order(units, |unit| *unit);
         units.dedup();
         let row = |unit: u8| Row {
             unit,
@@ -188,7 +188,7 @@ fn seen(read: ReadState) -> Vec<u8> {
     };
     // 0 is everybody.
     units.retain(|unit| *unit != 0);
-    units.sort_unstable();
+    let mut units = in_order(units, |unit| *unit);
     units.dedup();
     units.truncate(MOST);
     units
@@ -200,8 +200,7 @@ fn number(typed: &str) -> Option<u8> {
 
 /// "3 units, 2 devices."
 fn sentence(rows: &[Row]) -> String {
-    let mut devices: Vec<&str> = rows.iter().filter_map(|row| row.named).collect();
-    devices.sort_unstable();
+    let mut devices = in_order(rows.iter().filter_map(|row| row.named), |named| *named);
     devices.dedup();
     match (rows.len(), devices.len()) {
         (0, _) => "No unit is named, and Read shows none.".to_owned(),

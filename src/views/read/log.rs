@@ -17,7 +17,7 @@ use crate::worker::client::Client;
 use crate::worker::messages::{
     self, Answer, Choice, Export, Found, How, Passed, Proposed, Request, Value, Which,
 };
-use buslens::field::many;
+use buslens::field::{in_order, many};
 use buslens::tool::Options;
 use buslens::tool::digest::Digest;
 use buslens::tool::log::{Filter, Held, Lanes, Overview, Row, Seen, State};
@@ -378,9 +378,8 @@ impl LogState {
                     Timeout::new(0, move || state.list()).forget();
                 }
             }
-            Answer::Beside { mut proposals, seen } => {
-                proposals.sort_by_key(|proposed| std::cmp::Reverse(proposed.bits));
-                self.proposals.set(proposals);
+            Answer::Beside { proposals, seen } => {
+                self.proposals.set(in_order(proposals, |proposed| std::cmp::Reverse(proposed.bits)));
                 self.seen.set(seen);
             }
             Answer::Lanes(lanes) => self.lanes.set(lanes),

@@ -8,7 +8,7 @@ use super::examples::{FLOW_CONTROL, LOG, example};
 use crate::components::byte_strip::{ByteStrip, Lights, blocks};
 use crate::components::state_badge::{StateBadge, class};
 use crate::components::telegram::Shown;
-use buslens::field::{Direction, many};
+use buslens::field::{Direction, in_order, many};
 use buslens::tool::log::State;
 use buslens::tool::{Options, Profile, Report, decode};
 
@@ -51,8 +51,7 @@ fn ALog() -> impl IntoView {
     const WIDTH: usize = 620;
     const HIGH: usize = 20;
     let report = read(LOG, "");
-    let mut units: Vec<u8> = report.telegrams.iter().filter_map(|telegram| telegram.unit).collect();
-    units.sort_unstable();
+    let mut units = in_order(report.telegrams.iter().filter_map(|telegram| telegram.unit), |unit| *unit);
     units.dedup();
     let states: Vec<State> = (0..report.telegrams.len()).map(|index| report.state(index)).collect();
     let marks: Vec<_> = report

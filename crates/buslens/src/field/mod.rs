@@ -5,6 +5,7 @@
 
 mod bits;
 mod facts;
+mod in_order;
 mod message;
 mod problem;
 mod spec;
@@ -12,6 +13,7 @@ mod value;
 
 pub use bits::Bits;
 pub use facts::Facts;
+pub use in_order::{in_order, in_order_by};
 pub use message::{Argument, Message};
 pub use problem::{Problem, Severity};
 pub use spec::{Format, Name, Order, Range, Role, Spec};

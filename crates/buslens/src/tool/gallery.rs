@@ -7,7 +7,7 @@ use super::decode::Options;
 use super::link::Link;
 use super::{Detail, Profile, Protocol, Report, Verdict, decode};
 use crate::device::PROFILES;
-use crate::field::{Direction, Message, hex};
+use crate::field::{Direction, Message, hex, in_order_by};
 use crate::text;
 
 /// A telegram of the gallery.
@@ -59,9 +59,11 @@ pub struct Slip {
 /// The samples of a list: heads of vectors with an empty line between them, by manual and section, each response
 /// behind its request.
 pub fn samples(list: &str) -> Vec<Sample> {
-    let mut samples: Vec<Sample> = list.split("\n\n").filter_map(Sample::parse).collect();
-    samples.sort_by_cached_key(Sample::order);
-    samples
+    let samples = list.split("\n\n").filter_map(Sample::parse).map(|sample| (sample.order(), sample));
+    in_order_by(samples, |(one, _), (other, _)| one.cmp(other))
+        .into_iter()
+        .map(|(_, sample)| sample)
+        .collect()
 }
 
 impl Sample {

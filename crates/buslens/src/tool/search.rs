@@ -3,7 +3,7 @@
 use super::offers::offers;
 use super::{Change, Editor, Offer, PROFILES, PROTOCOLS, Profile, Protocol, Settings};
 use crate::device::{Access, Area, Content as Held, Parameter, Target, Task};
-use crate::field::{Argument, Direction, Message, Role, Spec, hex_value, number_text};
+use crate::field::{Argument, Direction, Message, Role, Spec, hex_value, in_order, number_text};
 use crate::message;
 use crate::walk::form::{self, Content, Entry, Form};
 use crate::walk::{Deviations, Telegram};
@@ -102,7 +102,7 @@ pub fn search(text: &str, device: Option<&'static Profile>) -> Vec<Found> {
         }
     }
     // As they are offered, where nothing tells them apart.
-    found.sort_by_key(|(score, _)| std::cmp::Reverse(*score));
+    let found = in_order(found, |(score, _)| std::cmp::Reverse(*score));
     found.into_iter().map(|(_, found)| found).collect()
 }
 

@@ -3,7 +3,7 @@
 
 use super::{Settings, UnitDevice};
 use crate::device::{Entry, Mapping, ProcessWord, Profile};
-use crate::field::{Argument, Message, hex_value};
+use crate::field::{Argument, Message, hex_value, in_order};
 use crate::message;
 use crate::modbus::DIALECTS;
 
@@ -58,9 +58,9 @@ pub fn find(typed: &str) -> Vec<Parameter> {
         let text = format!("{} {}", parameter.id, parameter.label).to_ascii_lowercase();
         address == Some(parameter.address) || typed.split_whitespace().all(|word| text.contains(word))
     };
-    let mut found: Vec<Parameter> = parameters().filter(fits).collect();
     // What was named exactly comes first.
-    found.sort_by_key(|it| address != Some(it.address) && !it.id.eq_ignore_ascii_case(&typed));
+    let is_other = |it: &Parameter| address != Some(it.address) && !it.id.eq_ignore_ascii_case(&typed);
+    let mut found = in_order(parameters().filter(fits), is_other);
     if let Some(address) = address.filter(|address| found.iter().all(|it| it.address != *address)) {
         found.insert(0, Parameter { address, id: "", label: "parameter without a name here", words: 1 });
     }
@@ -318,7 +318,7 @@ pub fn name_unit(settings: &mut Settings, unit: u8, device: Option<&'static Prof
     settings.units.retain(|it| it.unit != unit);
     if device.is_some() {
         settings.units.push(UnitDevice { unit, device });
-        settings.units.sort_by_key(|it| it.unit);
+        settings.units = in_order(std::mem::take(&mut settings.units), |it| it.unit);
     }
 }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use super::decode::Report;
 use super::{Detail, Verdict};
-use crate::field::{Argument, Direction, Field, Format, Message, Role, Value, count, leaves};
+use crate::field::{Argument, Direction, Field, Format, Message, Role, Value, count, in_order, leaves};
 use crate::message;
 
 /// Something that several telegrams show together.
@@ -194,8 +194,7 @@ impl Follow {
                 self.add("frozen", text, history.still);
             }
         }
-        self.found.sort_by_key(|finding| finding.evidence.first().copied());
-        self.found
+        in_order(self.found, |finding| finding.evidence.first().copied())
     }
 }
 

@@ -189,8 +189,8 @@ fn byte(telegram: &Telegram, right: &Telegram, at: Span, chosen: usize) -> Verdi
 fn small(label: &str) -> String {
     let mut rest = label.chars();
     match (rest.next(), rest.next()) {
-        (Some(first), Some(second)) if first.is_uppercase() && second.is_lowercase() => {
-            first.to_lowercase().chain(label.chars().skip(1)).collect()
+        (Some(first), Some(second)) if first.is_ascii_uppercase() && second.is_ascii_lowercase() => {
+            std::iter::once(first.to_ascii_lowercase()).chain(label.chars().skip(1)).collect()
         }
         _ => label.to_owned(),
     }

@@ -16,7 +16,7 @@ pub fn grade(wanted: &Number, text: &str) -> Verdict {
     let text = without_unit(text, &wanted.unit);
     let named = wanted.spec.filter(|spec| !spec.names.is_empty() || !spec.bits.is_empty());
     let name = named.and_then(|spec| {
-        let is_word = text.chars().any(char::is_alphabetic);
+        let is_word = text.chars().any(|c| c.is_ascii_alphabetic());
         parse_value(text, wanted.width, spec).ok().filter(|_| is_word)
     });
     if name.is_some_and(|raw| raw == wanted.raw) {

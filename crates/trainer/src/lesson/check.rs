@@ -1,6 +1,6 @@
 //! Whether everything that a lesson says holds.
 
-use buslens::field::{Field, Value, hex};
+use buslens::field::{Field, Value, hex, in_order};
 use buslens::tool::log::{Log, Reading, decode_pasted};
 use buslens::tool::{Report, decode};
 
@@ -14,8 +14,7 @@ impl Lesson {
         for step in &self.steps {
             step.check(&mut found);
         }
-        found.sort_by_key(|mistake| mistake.line);
-        found
+        in_order(found, |mistake| mistake.line)
     }
 }
 

@@ -11,7 +11,7 @@ mod progress;
 mod read;
 mod text;
 
-use buslens::field::{Field, Span, leaves};
+use buslens::field::{Field, Span, in_order, leaves};
 use buslens::tool::{Detail, Options, Profile, Protocol, Report, decode};
 
 pub use all::LESSONS;
@@ -157,8 +157,7 @@ pub fn field<'a>(detail: &'a Detail, name: &str) -> Option<&'a Field> {
 /// What fields can be named in a telegram, in the order of their bytes.
 pub fn names(detail: &Detail) -> Vec<String> {
     let blocks = detail.device.blocks.iter().flat_map(|block| leaves(std::slice::from_ref(&block.field)));
-    let mut all: Vec<&Field> = leaves(&detail.fields).into_iter().chain(blocks).collect();
-    all.sort_by_key(|field| field.span);
+    let all = in_order(leaves(&detail.fields).into_iter().chain(blocks), |field| field.span);
     let mut names: Vec<String> = all.into_iter().map(|field| field.label().to_string()).collect();
     names.dedup();
     names

@@ -1,7 +1,7 @@
 //! The text of a lesson, line by line. Reading never fails: what cannot be understood is a [`Mistake`], and all
 //! else is there.
 
-use buslens::field::{Format, Span};
+use buslens::field::{Format, Span, in_order};
 use buslens::tool::{PROFILES, PROTOCOLS, Profile, Protocol, steps::bytes};
 
 use super::exercise::{Ask, Exercise, Reading};
@@ -319,7 +319,7 @@ impl Reader {
                     wrong.into_iter().map(|(text, remark, _)| Choice { text, remark }).collect();
                 choices.push(Choice { text: right.clone(), remark: String::new() });
                 // By the alphabet, so that the order tells nothing.
-                choices.sort_by(|one, other| one.text.cmp(&other.text));
+                let choices = in_order(choices, |choice| choice.text.clone());
                 let right = choices.iter().position(|choice| choice.text == right).unwrap_or_default();
                 Some(Ask::Choose { choices, right })
             }
@@ -359,8 +359,7 @@ impl Reader {
         ];
         let missing = missing.into_iter().filter(|(is, _)| *is).map(|(_, said)| said);
         self.mistakes.extend(missing.map(|said| Mistake { line: 1, said: said.to_owned() }));
-        self.mistakes.sort_by_key(|mistake| mistake.line);
-        (self.lesson, self.mistakes)
+        (self.lesson, in_order(self.mistakes, |mistake| mistake.line))
     }
 }
 

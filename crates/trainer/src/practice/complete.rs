@@ -1,6 +1,6 @@
 //! What belongs into the blanks?
 
-use buslens::field::{Field, Role, hex};
+use buslens::field::{Role, hex, in_order};
 
 use super::decode::hints as of_field;
 use super::make::{
@@ -148,9 +148,8 @@ fn channel(random: &mut Random) -> Telegram {
 /// A telegram with the fields of these keys blank.
 fn blank(question: &str, request: Option<Telegram>, telegram: Telegram, keys: &[&str]) -> Task {
     let all = telegram.fields(true);
-    let mut fields: Vec<&Field> =
-        keys.iter().filter_map(|key| all.iter().find(|it| it.spec.key == *key)).collect();
-    fields.sort_by_key(|field| field.span);
+    let named = keys.iter().filter_map(|key| all.iter().find(|it| it.spec.key == *key));
+    let fields = in_order(named, |field| field.span);
     let blanks: Vec<Blank> =
         fields.iter().map(|field| Blank { label: field.label().to_string(), span: field.span }).collect();
     let first = fields.first().copied();

@@ -117,14 +117,15 @@ pub fn bytes_said(span: Span) -> String {
 /// A sentence that begins with a capital.
 pub fn sentence(text: &str) -> String {
     let mut rest = text.chars();
-    rest.next().map_or(String::new(), |first| first.to_uppercase().chain(rest).collect())
+    rest.next()
+        .map_or(String::new(), |first| std::iter::once(first.to_ascii_uppercase()).chain(rest).collect())
 }
 
 /// A label within a sentence; abbreviations stay as they are.
 pub fn small(label: &str) -> String {
     match label.get(..2) {
-        Some(first) if first.chars().all(char::is_uppercase) => label.to_owned(),
-        _ => label.chars().take(1).flat_map(char::to_lowercase).chain(label.chars().skip(1)).collect(),
+        Some(first) if first.bytes().all(|c| c.is_ascii_uppercase()) => label.to_owned(),
+        _ => label.chars().take(1).map(|c| c.to_ascii_lowercase()).chain(label.chars().skip(1)).collect(),
     }
 }
 

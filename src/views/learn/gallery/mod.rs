@@ -118,14 +118,14 @@ impl Narrowed {
 
     /// Whether every word that was typed is in what the telegram says, or the bytes are.
     fn says(&self, sample: &Sample, said: &Said) -> bool {
-        let typed = self.typed.trim().to_lowercase();
-        let bytes = hex(&said.bytes).to_lowercase();
+        let typed = self.typed.trim().to_ascii_lowercase();
+        let bytes = hex(&said.bytes).to_ascii_lowercase();
         if typed.is_empty() || typed.len() > 1 && bytes.contains(&typed) {
             return true;
         }
         let text =
             format!("{} {} {} {} {}", said.sentence, said.kind, sample.title, sample.section, sample.place);
-        let text = text.to_lowercase();
+        let text = text.to_ascii_lowercase();
         typed.split_whitespace().all(|word| text.contains(word))
     }
 }

@@ -335,7 +335,7 @@ fn Outcome(task: Task, then: String, here: Here) -> impl IntoView {
     let remark = |remark: &Remark| {
         let (field, text) = (remark.field.clone(), remark.text.sentence());
         // A sentence that begins with the field need not be told whose it is.
-        let named = !field.is_empty() && !text.to_lowercase().contains(&field.to_lowercase());
+        let named = !field.is_empty() && !text.to_ascii_lowercase().contains(&field.to_ascii_lowercase());
         let end = if text.ends_with(['.', '?', '!']) { "" } else { "." };
         view! {
             <li>

@@ -10,6 +10,7 @@ use web_sys::File;
 use crate::address::{View, href};
 use crate::browser::{file, storage};
 use crate::components::toast::Toasts;
+use buslens::field::in_order;
 use buslens::tool::link::Link;
 use buslens_trainer::lesson::{LESSONS, Lesson, Mistake, Progress, Step, read};
 use buslens_trainer::{Answer, Verdict};
@@ -178,7 +179,7 @@ impl LessonsState {
     fn open_lesson(self, name: String, text: &str) {
         let (lesson, mut mistakes) = read(text);
         mistakes.extend(lesson.mistakes());
-        mistakes.sort_by_key(|mistake| mistake.line);
+        let mistakes = in_order(mistakes, |mistake| mistake.line);
         if !mistakes.is_empty() {
             self.refused.set(Some(Refused { name, mistakes }));
             return;

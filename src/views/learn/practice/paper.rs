@@ -110,7 +110,8 @@ pub fn Paper(round: Round) -> impl IntoView {
 
 /// A question with room to write.
 fn question((index, task): (usize, &Task)) -> impl IntoView + use<> {
-    let alone = task.given.len() == 1;
+    // What is to be completed is another one.
+    let alone = task.given.len() == 1 && !matches!(task.expected, Expected::Blanks { .. });
     let given = task.given.iter().map(|given| match given {
         Given::Text(text) => view! { <pre class="mono">{text.clone()}</pre> }.into_any(),
         Given::Telegram(telegram) => {

@@ -48,7 +48,8 @@ pub fn Asked(task: Task, key: Key, label: &'static str, on_next: Callback<()>) -
         }
     });
     let lights = Lights::new();
-    let alone = task.given.len() == 1 && !matches!(task.expected, Expected::Byte { .. });
+    let alone =
+        task.given.len() == 1 && !matches!(task.expected, Expected::Byte { .. } | Expected::Blanks { .. });
     let last = task.given.len().saturating_sub(1);
     let given = task.given.iter().cloned().enumerate().map(|(at, given)| {
         // A byte is chosen in the last one.
@@ -180,45 +181,24 @@ fn AnswerForm(
             at
         });
     }
-    let text = move || match attempt.with(|attempt| attempt.answer.clone()) {
+    let text = Signal::derive(move || match attempt.with(|attempt| attempt.answer.clone()) {
         Some(Answer::Text(text)) => text,
         _ => String::new(),
-    };
+    });
+    let on_type = Callback::new(move |text| enter(Answer::Text(text)));
     let input = task.with_value(|task| match &task.expected {
-        Expected::Telegram(_) => view! {
-            <label class="typed">
-                <span>"The bytes, in hex; with the checksum or without"</span>
-                <input
-                    class="input mono"
-                    autocomplete="off"
-                    spellcheck="false"
-                    prop:value=text
-                    prop:readOnly=done
-                    on:input=move |event| enter(Answer::Text(event_target_value(&event)))
-                />
-            </label>
+        Expected::Telegram(_) => {
+            let label = "The bytes, in hex; with the checksum or without".to_owned();
+            view! { <Typed label how="" class="typed" text done on_type /> }.into_any()
         }
-        .into_any(),
         Expected::Number(number) => {
             let how = match number.notation {
                 Notation::Hex => "in hex",
                 Notation::Binary => "in binary",
                 _ => "in decimal; 0xC8 and C8h are read as hex",
             };
-            view! {
-                <label class="typed short">
-                    <span>{number.label.clone()} <small class="soft">{format!(" {how}")}</small></span>
-                    <input
-                        class="input mono"
-                        autocomplete="off"
-                        spellcheck="false"
-                        prop:value=text
-                        prop:readOnly=done
-                        on:input=move |event| enter(Answer::Text(event_target_value(&event)))
-                    />
-                </label>
-            }
-            .into_any()
+            let label = number.label.clone();
+            view! { <Typed label how class="typed short" text done on_type /> }.into_any()
         }
         Expected::Choice { choices, .. } => {
             view! { <Choices choices=choices.clone() attempt on_choose=Callback::new(move |at| enter(Answer::Choice(at))) /> }
@@ -246,6 +226,33 @@ fn AnswerForm(
                 <button type="submit" class="button main">"Check the answer"</button>
             </Show>
         </form>
+    }
+}
+
+/// An answer that is typed.
+#[component]
+fn Typed(
+    label: String,
+    /// How it is written.
+    how: &'static str,
+    class: &'static str,
+    text: Signal<String>,
+    done: Memo<bool>,
+    on_type: Callback<String>,
+) -> impl IntoView {
+    let how = (!how.is_empty()).then(|| view! { <small class="soft">{format!(" {how}")}</small> });
+    view! {
+        <label class=class>
+            <span>{label} {how}</span>
+            <input
+                class="input mono"
+                autocomplete="off"
+                spellcheck="false"
+                prop:value=text
+                prop:readOnly=done
+                on:input=move |event| on_type.run(event_target_value(&event))
+            />
+        </label>
     }
 }
 

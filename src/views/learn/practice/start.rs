@@ -70,7 +70,7 @@ pub fn Start(
                 </span>
             </label>
         </header>
-        <ul class="kinds">{kinds.map(|kind| view! { <li>{kind}</li> }).collect_view()}</ul>
+        <ul class="kind-cards">{kinds.map(|kind| view! { <li>{kind}</li> }).collect_view()}</ul>
         <section class="trainers">
             <h3>"For trainers"</h3>
             <p>

@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 
 use crate::components::byte_strip::role_class;
-use buslens::field::{Message, Order, Role, Spec, hex, hex_value};
+use buslens::field::{Message, Order, Role, Spec, hex, hex_value, in_order};
 use buslens::tool::{Row, Size};
 
 /// A field, or a group or list of them.
@@ -110,8 +110,7 @@ fn marks(row: &Row, cells: usize) -> Vec<String> {
 pub fn BitDiagram(spec: &'static Spec) -> impl IntoView {
     let highest = spec.bits.iter().map(|part| part.from + part.count).max().unwrap_or_default();
     let width = highest.div_ceil(8) * 8;
-    let mut parts: Vec<_> = spec.bits.iter().collect();
-    parts.sort_by_key(|part| std::cmp::Reverse(part.from));
+    let parts = in_order(spec.bits, |part| std::cmp::Reverse(part.from));
     let of_bit = |bit: u32| parts.iter().find(|part| (part.from..part.from + part.count).contains(&bit));
     let cells: Vec<AnyView> = (0..width)
         .rev()

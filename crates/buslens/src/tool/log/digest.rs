@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::{Bytes, Entry, Finding, Log, Role, Source, State};
-use crate::field::Direction;
+use crate::field::{Direction, in_order};
 use crate::tool::digest::{self, Digest, Line, MOST, Party};
 
 impl Log {
@@ -98,14 +98,15 @@ impl Log {
             }
         }
         for (_, list) in &mut by_state {
-            list.sort_unstable_by_key(|(index, times)| (*times, std::cmp::Reverse(*index)));
+            let all = std::mem::take(list);
+            *list = in_order(all, |(index, times)| (*times, std::cmp::Reverse(*index)));
         }
         while chosen.len() < MOST && by_state.iter().any(|(_, list)| !list.is_empty()) {
             for (_, list) in &mut by_state {
                 chosen.extend(list.pop().filter(|_| chosen.len() < MOST));
             }
         }
-        chosen.sort_unstable();
+        let chosen = in_order(chosen, |group| *group);
         (chosen.clone(), of.max(chosen.len()))
     }
 

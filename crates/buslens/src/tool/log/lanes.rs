@@ -4,6 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Entry, Log, Role, State};
+use crate::field::in_order;
 
 /// A log cut into stretches of the same length, with a lane for each unit.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -53,11 +54,10 @@ impl Log {
         let timed = self.statistics().times.filter(|(from, to)| to > from);
         let whole = timed.unwrap_or((0, self.entries().len().saturating_sub(1) as i64));
         let (from, to) = between.filter(|(from, to)| to >= from).unwrap_or(whole);
-        let mut units: Vec<(usize, u16, Option<u8>)> =
-            self.overview().units.iter().map(|unit| (unit.telegrams, unit.port, unit.unit)).collect();
-        units.sort_by_key(|(telegrams, ..)| std::cmp::Reverse(*telegrams));
-        units.truncate(MOST);
-        units.sort_by_key(|(_, port, unit)| (*port, *unit));
+        let overview = self.overview();
+        let units = overview.units.iter().map(|unit| (unit.telegrams, unit.port, unit.unit));
+        let busiest = in_order(units, |(telegrams, ..)| std::cmp::Reverse(*telegrams)).into_iter().take(MOST);
+        let units = in_order(busiest, |(_, port, unit)| (*port, *unit));
         let mut lanes: Vec<Lane> = units
             .iter()
             .map(|(_, port, unit)| Lane { port: *port, unit: *unit, ..Lane::default() })

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Entry, Format, Log, Role, Source};
 use crate::dialogue::Certainty;
-use crate::field::{Direction, Message, hex, many};
+use crate::field::{Direction, Message, hex, in_order, many};
 use crate::frame::Verdict;
 use crate::tool::decode::Report;
 
@@ -269,9 +269,8 @@ impl Log {
         let said = |sentence: &Message| sentence.sentence() + ".";
         let units = self.unit_rows();
         let dialogs = all.dialogs.iter().filter(|dialog| dialog.check_failed < dialog.telegrams);
-        let mut functions: Vec<u8> = dialogs.clone().map(|dialog| dialog.function).collect();
-        functions.retain(|function| *function > 0);
-        functions.sort_unstable();
+        let functions = dialogs.clone().map(|dialog| dialog.function).filter(|function| *function > 0);
+        let mut functions = in_order(functions, |function| *function);
         functions.dedup();
         let mut ports: Vec<(u16, String)> =
             dialogs.filter_map(|dialog| Some((dialog.port, self.port_name(dialog.port)?))).collect();

@@ -150,7 +150,7 @@ impl Log {
             }
         }
         if !redacted.is_capture {
-            taken.sort_unstable();
+            let taken = field::in_order(taken, |span| *span);
             redacted.left += self.rewrite(source, size, &mut desk, (edits, &taken), &mut redacted.file);
         }
         redacted.replaced = desk.replaced();
@@ -189,12 +189,12 @@ impl Log {
         source: &dyn Source,
         size: u64,
         desk: &mut Desk<'_>,
-        (mut edits, taken): (Vec<(Span, Vec<u8>)>, &[Span]),
+        (edits, taken): (Vec<(Span, Vec<u8>)>, &[Span]),
         file: &mut Vec<u8>,
     ) -> usize {
         let read = |from: u64| self.read_again(source, from, PART);
         let is_text = !matches!(self.format, Format::Stream);
-        edits.sort_unstable();
+        let mut edits = field::in_order_by(edits, Ord::cmp);
         edits.dedup();
         let mut edits = edits.into_iter().peekable();
         let (mut from, mut left) = (0, 0);
@@ -234,7 +234,7 @@ impl Log {
                 let near = near.map(|span| Span::new(span.from.saturating_sub(base), span.to - base));
                 changes.extend(desk.words(&part, &near.collect::<Vec<_>>()));
             }
-            changes.sort_unstable();
+            let changes = field::in_order_by(changes, Ord::cmp);
             let mut at = 0;
             for (place, written) in changes {
                 if place.from >= at && place.to <= part.len() {
@@ -360,8 +360,7 @@ impl<'a> Desk<'a> {
                 });
             }
         }
-        self.met.sort_by_key(|it| it.kind);
-        self.met
+        field::in_order(self.met, |it| it.kind)
     }
 
     /// Another unit with as many digits, always the same one for the same; nobody's addresses stay.
@@ -532,8 +531,8 @@ impl<'a> Desk<'a> {
             /// Shorter ones are parts of any word; and nobody waits for more of them.
             const SHORTEST: usize = 4;
             const MOST: usize = 200;
-            let mut texts: Vec<&Vec<u8>> = self.texts.keys().filter(|text| text.len() >= SHORTEST).collect();
-            texts.sort_unstable();
+            let texts = self.texts.keys().filter(|text| text.len() >= SHORTEST);
+            let texts = field::in_order(texts, |text| *text);
             names.extend(texts.into_iter().take(MOST).map(|text| (Kind::Text, text.clone())));
         }
         for (kind, name) in names.into_iter().filter(|(_, name)| !name.is_empty()) {
@@ -556,7 +555,7 @@ impl<'a> Desk<'a> {
                 }
             }
         }
-        changes.sort_unstable();
+        let mut changes = field::in_order_by(changes, Ord::cmp);
         changes.dedup_by(|later, earlier| later.0.from < earlier.0.to);
         changes
     }

@@ -1,7 +1,7 @@
 //! A log in sentences.
 
 use super::{Dialog, Log};
-use crate::field::{Message, grouped, many};
+use crate::field::{Message, grouped, in_order, many};
 use crate::message;
 
 impl Log {
@@ -28,9 +28,10 @@ impl Log {
             ),
             _ => where_from,
         });
-        let mut units = self.units();
+        let units = self.units();
         let spoken = units.len();
-        units.sort_by_key(|unit| std::cmp::Reverse(unit.unanswered + unit.check_failed + unit.exceptions));
+        let units =
+            in_order(units, |unit| std::cmp::Reverse(unit.unanswered + unit.check_failed + unit.exceptions));
         story.extend(units.iter().take(MOST_UNITS).map(|unit| self.of_unit(unit)));
         if spoken > MOST_UNITS {
             let more = spoken - MOST_UNITS;

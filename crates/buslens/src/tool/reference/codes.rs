@@ -223,7 +223,7 @@ impl Codes {
         for meaning in meanings(spec) {
             let Meaning { number, numbers, label, note, part, raw } = meaning;
             let of = match part {
-                Some(part) if !of.to_lowercase().contains(part) => format!("{of}, {part}"),
+                Some(part) if !of.to_ascii_lowercase().contains(part) => format!("{of}, {part}"),
                 _ => of.to_owned(),
             };
             let code = Code { of, note, source: spec.source, draft: draft(raw) };

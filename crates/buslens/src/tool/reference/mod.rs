@@ -16,7 +16,7 @@ pub use telegrams::{Layout, Topic};
 use super::link::Link;
 use super::search::{Number, fold};
 use super::{Editor, Options, PROFILES, Profile, Protocol, Settings};
-use crate::field::{Direction, hex};
+use crate::field::{Direction, hex, in_order};
 
 /// What something to look up is of.
 #[derive(Clone, Copy, Debug)]
@@ -312,8 +312,7 @@ pub fn find(items: &[Arc<Item>], text: &str) -> Vec<Arc<Item>> {
             found.push((score + item.meant(&words), item.at(&words)));
         }
     }
-    found.sort_by_key(|(score, _)| std::cmp::Reverse(*score));
-    found.into_iter().map(|(_, item)| item).collect()
+    in_order(found, |(score, _)| std::cmp::Reverse(*score)).into_iter().map(|(_, item)| item).collect()
 }
 
 /// A word that was typed.

@@ -2,7 +2,7 @@
 
 use super::{About, Book, Chapter, Doing, Item};
 use crate::device::{Access, Area, Content, Parameter, Profile, Target, Task};
-use crate::field::{Format, Numbering, Spec, float, hex_value, number_text};
+use crate::field::{Format, Numbering, Spec, float, hex_value, in_order, number_text};
 use crate::tool::link::Link;
 use crate::tool::{Options, Protocol};
 use crate::walk::{Deviations, form};
@@ -210,8 +210,8 @@ pub(super) fn items(profile: &'static Profile) -> Vec<Item> {
             }
         }
         let inside = |parameter: &&Parameter| (area.from..=area.last()).contains(&parameter.address);
-        let mut named: Vec<&'static Parameter> = profile.parameters().filter(inside).collect();
-        named.sort_by_key(|parameter| (parameter.address, parameter.subindex));
+        let named = profile.parameters().filter(inside);
+        let named = in_order(named, |parameter| (parameter.address, parameter.subindex));
         items.extend(named.into_iter().map(|parameter| of_parameter(profile, parameter)));
     }
     items
