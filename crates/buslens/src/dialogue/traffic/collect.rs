@@ -344,7 +344,7 @@ impl Traffic {
         }
     }
 
-    /// The telegrams that came in several chunks with pauses of more than [`LONG_PAUSE`] between them, and the
+    /// The telegrams that came in several chunks with pauses of more than 5 ms between them, and the
     /// longest of these in microseconds.
     pub fn pauses(&self) -> &[(u32, u32)] {
         &self.pauses
