@@ -301,7 +301,7 @@ async fn a_log_proposes_the_devices_of_its_units() -> Result {
     page.until(".rows .row", "Universal channel 1").await?;
     page.view("devices").await?;
     page.press_button("Undo").await?;
-    page.until(CHANGES, "everything is at factory settings").await?;
+    page.until(".changes", "everything is at factory settings").await?;
     page.until(".units .why", "Unit 1 reads well as").await?;
     page.close().await
 }

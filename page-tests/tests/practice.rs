@@ -205,7 +205,7 @@ async fn practice_refuses_damaged_links() -> Result {
     page.fill(".seed input", "K7").await?;
     page.until(".seed .note", "four letters").await?;
     page.fill(".seed input", "k7qm").await?;
-    page.click(".kind-card .level").await?;
+    page.click_text(".kind-card .level", "Level 1").await?;
     let task = &round(Kind::Decode, 1).questions()[0];
     page.until(".question .headline", &task.question).await?;
     assert!(page.fragment().await?.contains("practice.1.decode.1.K7QM.1"));
