@@ -462,7 +462,7 @@ async fn a_log_in_a_low_window() -> Result {
         let [list, detail, gap]: [f64; 3] =
             serde_json::from_value(page.value(heights).await?).expect("numbers");
         assert!(
-            list >= 440.0 && detail >= 440.0 && gap >= 0.0,
+            list >= 320.0 && detail >= 320.0 && gap >= 0.0,
             "list {list}, detail {detail}, before the foot {gap}"
         );
         page.click_text(".file-bar button", label).await?;

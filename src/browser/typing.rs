@@ -1,6 +1,6 @@
 //! Where somebody types.
 
-use leptos::prelude::document;
+use leptos::prelude::{document, window};
 use leptos::wasm_bindgen::JsCast;
 use web_sys::{Element, EventTarget, HtmlElement};
 
@@ -21,7 +21,10 @@ pub fn go_to_field() {
 /// Where what had the focus is gone, the next Tab leads to what came in its place.
 pub fn find_focus() {
     if document().active_element().is_none_or(|element| element.tag_name() == "BODY") {
+        // The view as a whole, and what is seen of it stays.
+        let top = window().scroll_y().unwrap_or_default();
         focus("main");
+        window().scroll_to_with_x_and_y(0.0, top);
     }
 }
 
