@@ -113,7 +113,7 @@ pub fn ByteStrip(
     let drawn = StoredValue::new(0_u32);
     let shown = move || {
         drawn.update_value(|drawn| *drawn += 1);
-        if drawn.get_value() % LIGHTS_LAST == 0 {
+        if drawn.get_value().is_multiple_of(LIGHTS_LAST) {
             lights.forget();
         }
         blocks.with(|all| all.iter().filter(|block| block.span.from < MOST).cloned().collect::<Vec<_>>())
