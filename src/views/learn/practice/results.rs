@@ -1,14 +1,16 @@
 //! Results of a group: codes, or files with them, in a table.
 
-use leptos::html;
 use leptos::prelude::*;
 use leptos::task::spawn_local;
+use web_sys::File;
 
 use super::go;
 use super::state::Where;
 use crate::browser::file;
 use crate::components::icon::{Glyph, Icon};
+use crate::components::open_file::OpenFile;
 use crate::components::toast::Toasts;
+use crate::components::wide_table::WideTable;
 use crate::views::learn::LearnState;
 use buslens_trainer::practice::QUESTIONS;
 use buslens_trainer::result::{self, About, Line, RoundResult};
@@ -19,34 +21,26 @@ pub fn Results() -> impl IntoView {
     let toasts = expect_context::<Toasts>();
     let codes = learn.practice.codes;
     let lines = Memo::new(move |_| codes.with(|text| result::lines(text)));
-    let field = NodeRef::<html::Input>::new();
-    let open = move |_| {
-        let Some(files) = field.get_untracked().and_then(|field| field.files()) else { return };
-        for at in 0..files.length() {
-            let Some(one) = files.get(at) else { continue };
-            spawn_local(async move {
-                match file::text(&one, MOST).await {
-                    Ok(text) => codes.update(|all| {
-                        if !all.is_empty() && !all.ends_with('\n') {
-                            all.push('\n');
-                        }
-                        // Who it is of, the file's name tells, where it says nothing itself.
-                        let own = one.name();
-                        let own = own.rsplit_once('.').map_or(own.as_str(), |(name, _)| name);
-                        let alone = result::lines(&text).len() == 1;
-                        for line in result::lines(&text) {
-                            let name = if line.name.is_empty() && alone { own } else { &line.name };
-                            *all += &format!("{name} {}\n", line.code);
-                        }
-                    }),
-                    Err(why) => toasts.say(why.sentence()),
-                }
-            });
-        }
-        if let Some(field) = field.get_untracked() {
-            field.set_value("");
-        }
-    };
+    let open = Callback::new(move |one: File| {
+        spawn_local(async move {
+            match file::text(&one, MOST).await {
+                Ok(text) => codes.update(|all| {
+                    if !all.is_empty() && !all.ends_with('\n') {
+                        all.push('\n');
+                    }
+                    // Who it is of, the file's name tells, where it says nothing itself.
+                    let own = one.name();
+                    let own = own.rsplit_once('.').map_or(own.as_str(), |(name, _)| name);
+                    let alone = result::lines(&text).len() == 1;
+                    for line in result::lines(&text) {
+                        let name = if line.name.is_empty() && alone { own } else { &line.name };
+                        *all += &format!("{name} {}\n", line.code);
+                    }
+                }),
+                Err(why) => toasts.say(why.sentence()),
+            }
+        });
+    });
     let row = |line: Line| {
         let Line { name, code, result } = line;
         match result {
@@ -101,11 +95,7 @@ pub fn Results() -> impl IntoView {
                 ></textarea>
             </label>
             <div class="acts">
-                <label class="button">
-                    <Icon glyph=Glyph::Open />
-                    "Open files"
-                    <input class="unseen" type="file" multiple=true accept=".txt,text/plain" node_ref=field on:change=open />
-                </label>
+                <OpenFile label="Open files" accept=".txt,text/plain" multiple=true on_open=open />
                 <button
                     type="button"
                     class="button"
@@ -117,21 +107,19 @@ pub fn Results() -> impl IntoView {
                 </button>
             </div>
             <Show when=move || !lines.with(Vec::is_empty)>
-                <div class="table-frame" role="region" aria-label="Results" tabindex="0">
-                    <table class="table">
-                        <thead>
-                            <tr>
-                                <th scope="col">"Name"</th>
-                                <th scope="col">"Code"</th>
-                                <th scope="col">"Practice"</th>
-                                <th scope="col">"Level"</th>
-                                <th scope="col">"Seed"</th>
-                                <th scope="col">"Right at once"</th>
-                            </tr>
-                        </thead>
-                        <tbody>{move || lines.get().into_iter().map(row).collect_view()}</tbody>
-                    </table>
-                </div>
+                <WideTable label="Results">
+                    <thead>
+                        <tr>
+                            <th scope="col">"Name"</th>
+                            <th scope="col">"Code"</th>
+                            <th scope="col">"Practice"</th>
+                            <th scope="col">"Level"</th>
+                            <th scope="col">"Seed"</th>
+                            <th scope="col">"Right at once"</th>
+                        </tr>
+                    </thead>
+                    <tbody>{move || lines.get().into_iter().map(row).collect_view()}</tbody>
+                </WideTable>
             </Show>
             <p class="note">
                 "Nothing is sent anywhere: who sits before this page sees the table, and nobody else. A code is short, not secret."

@@ -13,11 +13,11 @@ use leptos::prelude::*;
 
 use super::ReadState;
 use super::log::Stage;
-use super::open_file::OpenFile;
 use super::times::stretch;
 use crate::browser::typing::go_to_field;
 use crate::components::icon::{Glyph, Icon};
 use crate::components::menu::{Menu, MenuItem, MenuLink};
+use crate::components::open_file::OpenFile;
 use crate::views::outgoing::{PassOn, Summary};
 use crate::worker::messages::{Export, Request};
 use buslens::field::many;
@@ -111,7 +111,7 @@ fn FileBar() -> impl IntoView {
                     <Icon glyph=Glyph::Close />
                     "Close"
                 </button>
-                <OpenFile label="Open another" class="plain" />
+                <OpenFile label="Open another" class="plain" on_open=read.opener() />
                 <Tools />
                 <Menu label="Export" glyph=Glyph::Save at_end=true>
                     {Export::FILES.map(export).into_iter().collect_view()}
