@@ -298,6 +298,11 @@ pub fn of_round(round: &Round, index: usize) -> String {
     format!("practice: {}.{}", round.place(), index.min(QUESTIONS - 1) + 1)
 }
 
+/// The line of all tasks of a round.
+pub fn of_rounds(round: &Round) -> String {
+    format!("practice: {}", round.place())
+}
+
 /// The lines of a telegram and what came instead of it.
 pub fn of_telegram(telegram: &Telegram, came: &[u8]) -> String {
     let mut lines = format!("protocol: {}\n", telegram.protocol.key);
