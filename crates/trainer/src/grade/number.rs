@@ -165,6 +165,16 @@ fn wrong(wanted: &Number, given: Option<u64>) -> Verdict {
         (None, Some(given)) if wanted.raw != 0 && given == wanted.raw.wrapping_neg() & mask(wanted.width) => {
             message!("the sign is the other one")
         }
+        (None, Some(given)) if wanted.spec.is_none() && wanted.role == Role::Data => {
+            let shown = match wanted.notation {
+                Notation::Hex => buslens::field::hex_value(given, wanted.width),
+                _ => given.to_string(),
+            };
+            match given < wanted.raw {
+                true => message!("{given} is too low", given = shown),
+                false => message!("{given} is too high", given = shown),
+            }
+        }
         _ => match wanted.role {
             Role::Address => {
                 message!("the {label} is another one: it is in the bytes that say where", label = label)
