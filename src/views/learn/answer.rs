@@ -231,7 +231,12 @@ pub fn said(verdict: Verdict, then: impl FnOnce() -> AnyView) -> AnyView {
             </div>
         }
         .into_any(),
-        Verdict::Unread(message) => view! { <p class="said unread">{message.sentence()} "."</p> }.into_any(),
+        Verdict::Unread(message) => view! {
+            <div class="said unread">
+                <p>{message.sentence()} "."</p>
+            </div>
+        }
+        .into_any(),
     }
 }
 

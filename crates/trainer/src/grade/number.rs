@@ -144,7 +144,7 @@ fn float(wanted: &Number, written: &Written) -> Verdict {
 
 /// A whole number, and which slip it looks like.
 fn wrong(wanted: &Number, given: Option<u64>) -> Verdict {
-    let label = small(&wanted.label);
+    let label = if wanted.label.is_empty() { "number".to_owned() } else { small(&wanted.label) };
     let key = wanted.spec.map_or("", |spec| spec.key);
     let slip = given.and_then(|given| Slip::find(wanted.raw, given, wanted.width, wanted.role, key));
     let scaled = |given: u64| {

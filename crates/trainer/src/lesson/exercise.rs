@@ -299,7 +299,7 @@ fn number(step: &Step, value: &str) -> Option<Number> {
     let (width, format) = if fractional { (4, Format::Float) } else { (4, Format::Decimal) };
     if let Ok(written) = notation::read(value, width, format, Notation::Any) {
         let width = if written.raw > 0xFFFF || fractional { 4 } else { 2 };
-        return Some(Number::new("Number", written.raw, width, format).notation(notation));
+        return Some(Number::new("", written.raw, width, format).notation(notation));
     }
     let report = step.report();
     let all = (0..report.telegrams.len()).filter_map(|index| report.detail(index));
