@@ -95,9 +95,9 @@ async fn practice_has_questions_of_each_kind() -> Result {
         page.go(&link(round, "")).await?;
         page.until(".question .headline", &task.question).await?;
         if level == 1 {
-            page.press_button("Hint 1 of 3").await?;
+            page.press_button("Give me a hint").await?;
             page.until(".hints li", &task.hints[0]).await?;
-            page.press_button("Hint 2 of 3").await?;
+            page.press_button("Another hint, 2 of 3").await?;
             page.until(".hints li", &task.hints[1]).await?;
         }
         assert_eq!(page.accessibility().await?, [""; 0], "{}", kind.key());

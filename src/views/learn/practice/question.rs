@@ -5,15 +5,17 @@ use leptos::html;
 use leptos::prelude::*;
 
 use super::bar::bar;
-use super::given::{GivenPart, in_read, named};
+use super::given::{GivenPart, in_read, named, plain};
 use super::go;
 use super::series::Shared;
 use super::state::{Attempt, Key, Outcome, Screen, Where};
-use crate::components::byte_strip::{ByteStrip, Lights};
+use crate::components::byte_strip::{Block, ByteStrip, Lights};
 use crate::components::icon::{Glyph, Icon};
 use crate::views::learn::LearnState;
+use crate::views::learn::answer::{Answering, Blanks, Choices, Help, Hints, Typed, said};
+use buslens::field::Span;
 use buslens_trainer::notation::Notation;
-use buslens_trainer::{Answer, Blank, Choice, Expected, Task, Telegram, Verdict, grade, letter};
+use buslens_trainer::{Answer, Blank, Expected, Task, Telegram, Verdict, grade};
 
 pub fn question(series: Shared, index: usize) -> AnyView {
     let learn = expect_context::<LearnState>();
@@ -62,7 +64,14 @@ fn Asked(task: Task, key: Key, label: &'static str, on_next: Callback<()>) -> im
     });
     let given = given.collect_view();
     let question = task.question.clone();
+    let hints = task.hints.clone();
     let task = StoredValue::new(task);
+    let change = move |change: fn(&mut Attempt)| key.with_value(|key| state.change(key, change));
+    let (all, hinted) = (hints.len(), move || attempt.with(|attempt| attempt.hints));
+    let helped = Signal::derive(move || if told.get() { all } else { hinted() });
+    // Who is stuck need not go through all hints.
+    let stuck = move || attempt.with(|attempt| attempt.wrong > 2);
+    let offered = Signal::derive(move || !told.get() && (hinted() >= all || stuck()));
     view! {
         <article class="question">
             <div class="ask">
@@ -73,15 +82,21 @@ fn Asked(task: Task, key: Key, label: &'static str, on_next: Callback<()>) -> im
                 <AnswerForm key attempt task lights />
                 <Said attempt task />
                 <div class="steps">
-                    <Show when=move || told.get() fallback=move || view! { <Help key attempt task /> }>
-                        <button type="button" class="button main" on:click=move |_| on_next.run(())>
-                            {label}
-                            <Icon glyph=Glyph::Forward />
-                        </button>
-                    </Show>
+                    <Help
+                        count=hints.len()
+                        shown=helped
+                        answer=offered
+                        label="Show the answer"
+                        on_hint=Callback::new(move |()| change(|attempt| attempt.hints += 1))
+                        on_answer=Callback::new(move |()| change(|attempt| attempt.outcome = Outcome::Shown))
+                    />
+                    <button type="button" class="button main" hidden=move || !told.get() on:click=move |_| on_next.run(())>
+                        {label}
+                        <Icon glyph=Glyph::Forward />
+                    </button>
                 </div>
             </div>
-            <Hints attempt task />
+            <Hints hints shown=Signal::derive(hinted) />
         </article>
     }
 }
@@ -96,7 +111,6 @@ fn AnswerForm(
 ) -> impl IntoView {
     let state = expect_context::<LearnState>().practice;
     let change = move |change: &dyn Fn(&mut Attempt)| key.with_value(|key| state.change(key, change));
-    let done = Memo::new(move |_| attempt.with(|attempt| attempt.outcome != Outcome::Open));
     let enter = move |answer: Answer| {
         change(&|attempt| {
             // What was said is about another answer.
@@ -106,6 +120,12 @@ fn AnswerForm(
             attempt.answer = Some(answer.clone());
         });
     };
+    let answering = Answering {
+        answer: Signal::derive(move || attempt.with(|attempt| attempt.answer.clone())),
+        verdict: Signal::derive(move || attempt.with(|attempt| attempt.verdict.clone())),
+        done: Signal::derive(move || attempt.with(|attempt| attempt.outcome != Outcome::Open)),
+        on_answer: Callback::new(enter),
+    };
     let check = move |event: SubmitEvent| {
         event.prevent_default();
         let answer = attempt.with_untracked(|attempt| attempt.answer.clone());
@@ -113,25 +133,9 @@ fn AnswerForm(
         let verdict = task.with_value(|task| grade(task, &answer));
         change(&|attempt| take(attempt, verdict.clone()));
     };
-    // A byte is chosen in the strip.
-    if task.with_value(|task| matches!(task.expected, Expected::Byte { .. })) {
-        Effect::new(move |before: Option<Option<usize>>| {
-            let at = lights.chosen.get().map(|chosen| chosen.at);
-            if let Some(at) = at.filter(|_| before.flatten() != at && !done.get_untracked()) {
-                enter(Answer::Byte(at));
-            }
-            at
-        });
-    }
-    let text = Signal::derive(move || match attempt.with(|attempt| attempt.answer.clone()) {
-        Some(Answer::Text(text)) => text,
-        _ => String::new(),
-    });
-    let on_type = Callback::new(move |text| enter(Answer::Text(text)));
     let input = task.with_value(|task| match &task.expected {
         Expected::Telegram(_) => {
-            let label = "The bytes, in hex; with the checksum or without".to_owned();
-            view! { <Typed label how="" class="typed" text done on_type /> }.into_any()
+            view! { <Typed answering label="The bytes, in hex; with the checksum or without" /> }.into_any()
         }
         Expected::Number(number) => {
             let how = match number.notation {
@@ -139,16 +143,17 @@ fn AnswerForm(
                 Notation::Binary => "in binary",
                 _ => "in decimal; 0xC8 and C8h are read as hex",
             };
-            let label = number.label.clone();
-            view! { <Typed label how class="typed short" text done on_type /> }.into_any()
+            view! { <Typed answering label=number.label.clone() how short=true /> }.into_any()
         }
         Expected::Choice { choices, .. } => {
-            view! { <Choices choices=choices.clone() attempt on_choose=Callback::new(move |at| enter(Answer::Choice(at))) /> }
-            .into_any()
+            let texts = choices.iter().map(|choice| choice.text.clone()).collect::<Vec<_>>();
+            view! { <Choices answering texts /> }.into_any()
         }
         Expected::Byte { telegram, .. } => {
+            // A byte is chosen in the strip.
+            answering.take_byte(lights);
             let bytes = telegram.bytes.clone();
-            let chosen = move || match attempt.with(|attempt| attempt.answer.clone()) {
+            let chosen = move || match answering.answer.get() {
                 Some(Answer::Byte(at)) => {
                     format!("Byte {at}, {:02X}", bytes.get(at).copied().unwrap_or_default())
                 }
@@ -157,45 +162,40 @@ fn AnswerForm(
             view! { <p class="chosen-one">"Chosen: " <strong>{chosen}</strong></p> }.into_any()
         }
         Expected::Blanks { telegram, blanks } => {
-            view! { <Blanks telegram=telegram.clone() blanks=blanks.clone() attempt on_type=Callback::new(move |texts| enter(Answer::Blanks(texts))) /> }
-            .into_any()
+            let spans: Vec<Span> = blanks.iter().map(|blank| blank.span).collect();
+            view! { <Blanks answering blocks=with_blanks(telegram, blanks) spans /> }.into_any()
         }
     });
     view! {
         <form class="answer" on:submit=check>
             {input}
-            <Show when=move || !done.get()>
-                <button type="submit" class="button main">"Check the answer"</button>
-            </Show>
+            <button type="submit" class="button main" hidden=answering.done>
+                "Check the answer"
+            </button>
         </form>
     }
 }
 
-/// An answer that is typed.
-#[component]
-fn Typed(
-    label: String,
-    /// How it is written.
-    how: &'static str,
-    class: &'static str,
-    text: Signal<String>,
-    done: Memo<bool>,
-    on_type: Callback<String>,
-) -> impl IntoView {
-    let how = (!how.is_empty()).then(|| view! { <small class="soft">{format!(" {how}")}</small> });
-    view! {
-        <label class=class>
-            <span>{label} {how}</span>
-            <input
-                class="input mono"
-                autocomplete="off"
-                spellcheck="false"
-                prop:value=text
-                prop:readOnly=done
-                on:input=move |event| on_type.run(event_target_value(&event))
-            />
-        </label>
+/// The bytes one by one, and the blanks by their names.
+fn with_blanks(telegram: &Telegram, blanks: &[Blank]) -> Vec<Block> {
+    let mut blocks = plain(&telegram.bytes);
+    for Blank { label, span } in blanks {
+        blocks.retain(|block| !span.contains(block.span.from));
+        let at = blocks.partition_point(|block| block.span.from < span.from);
+        blocks.insert(
+            at,
+            Block {
+                name: label.clone(),
+                label: label.clone(),
+                caption: String::new(),
+                class: "role-unknown",
+                faulty: false,
+                span: *span,
+                bytes: Vec::new(),
+            },
+        );
     }
+    blocks
 }
 
 /// Takes what was said to an answer.
@@ -209,156 +209,28 @@ fn take(attempt: &mut Attempt, verdict: Verdict) {
     attempt.verdict = Some(verdict);
 }
 
-#[component]
-fn Choices(choices: Vec<Choice>, attempt: Memo<Attempt>, on_choose: Callback<usize>) -> impl IntoView {
-    let chosen = move || match attempt.with(|attempt| attempt.answer.clone()) {
-        Some(Answer::Choice(at)) => Some(at),
-        _ => None,
-    };
-    let done = move || attempt.with(|attempt| attempt.outcome != Outcome::Open);
-    let choice = move |(at, choice): (usize, Choice)| {
-        let right = move || done() && chosen() == Some(at);
-        view! {
-            <label class="choice" class:right=right>
-                <input
-                    type="radio"
-                    name="choice"
-                    prop:checked=move || chosen() == Some(at)
-                    prop:disabled=done
-                    on:change=move |_| on_choose.run(at)
-                />
-                <span class="soft">{format!("{})", letter(at))}</span>
-                <span>{choice.text}</span>
-            </label>
-        }
-    };
-    view! {
-        <fieldset class="choices">
-            <legend class="unseen">"Choices"</legend>
-            {choices.into_iter().enumerate().map(choice).collect_view()}
-        </fieldset>
-    }
-}
-
-/// A telegram some of whose fields are to be filled in.
-#[component]
-fn Blanks(
-    telegram: Telegram,
-    blanks: Vec<Blank>,
-    attempt: Memo<Attempt>,
-    on_type: Callback<Vec<String>>,
-) -> impl IntoView {
-    let count = blanks.len();
-    let texts = move || match attempt.with(|attempt| attempt.answer.clone()) {
-        Some(Answer::Blanks(texts)) => texts,
-        _ => vec![String::new(); count],
-    };
-    let done = move || attempt.with(|attempt| attempt.outcome != Outcome::Open);
-    let wrong = move |label: &str| {
-        attempt.with(|attempt| {
-            attempt.verdict.as_ref().is_some_and(|it| it.remarks().iter().any(|remark| remark.field == label))
-        })
-    };
-    let mut items = Vec::new();
-    let mut at = 0;
-    while at < telegram.bytes.len() {
-        let Some((index, blank)) = blanks.iter().enumerate().find(|(_, blank)| blank.span.from == at) else {
-            items.push(
-                view! { <li class="given-byte"><code>{format!("{:02X}", telegram.bytes[at])}</code></li> }
-                    .into_any(),
-            );
-            at += 1;
-            continue;
-        };
-        let label = blank.label.clone();
-        let width = blank.span.len();
-        let invalid = {
-            let label = label.clone();
-            move || wrong(&label).to_string()
-        };
-        items.push(
-            view! {
-                <li class="blank">
-                    <label>
-                        <span>{label}</span>
-                        <input
-                            class="input mono"
-                            style:width=format!("{}ch", 3 * width + 4)
-                            placeholder=vec!["__"; width].join(" ")
-                            autocomplete="off"
-                            spellcheck="false"
-                            aria-invalid=invalid
-                            prop:value=move || texts().get(index).cloned().unwrap_or_default()
-                            prop:readOnly=done
-                            on:input=move |event| {
-                                let mut all = texts();
-                                all.resize(count, String::new());
-                                all[index] = event_target_value(&event);
-                                on_type.run(all);
-                            }
-                        />
-                    </label>
-                </li>
-            }
-            .into_any(),
-        );
-        at = blank.span.to;
-    }
-    view! {
-        <div class="blanks">
-            <p class="note">"Fill in the blanks, in hex."</p>
-            <ol>{items}</ol>
-        </div>
-    }
-}
-
 /// What there is to say to the answer.
 #[component]
 fn Said(attempt: Memo<Attempt>, task: StoredValue<Task>) -> impl IntoView {
-    let said = move || {
+    let shown = move || {
         let Attempt { verdict, outcome, .. } = attempt.get();
-        let told = matches!(outcome, Outcome::First | Outcome::Later | Outcome::Shown);
+        let answer = |class, label| {
+            let answer = task.with_value(|task| task.expected.text());
+            view! { <p class=class><strong>{label}</strong> <span>{answer}</span></p> }.into_any()
+        };
         let verdict = match (verdict, outcome) {
-            (_, Outcome::Shown) => {
-                let answer = task.with_value(|task| task.expected.text());
-                view! { <p class="said shown"><strong>"The answer: "</strong><span>{answer}</span></p> }
-                    .into_any()
-            }
-            (Some(Verdict::Right(note)), _) => {
-                let note = note.map(|note| format!(" {}.", note.sentence()));
-                view! {
-                    <p class="said right">
-                        <Icon glyph=Glyph::Tick />
-                        <strong>"Right."</strong>
-                        {note}
-                    </p>
-                }
-                .into_any()
-            }
-            (Some(Verdict::Wrong(remarks)), _) => {
-                let remarks = remarks
-                    .into_iter()
-                    .map(|remark| view! { <li>{remark.text.sentence()} "."</li> })
-                    .collect_view();
-                view! { <div class="said wrong"><strong>"Not yet."</strong><ul>{remarks}</ul></div> }
-                    .into_any()
-            }
-            (Some(Verdict::Unread(message)), _) => {
-                view! { <p class="said unread">{message.sentence()} "."</p> }.into_any()
-            }
-            (None, Outcome::First | Outcome::Later) => {
-                let answer = task.with_value(|task| task.expected.text());
-                view! { <p class="said right"><Icon glyph=Glyph::Tick /><strong>"Answered: "</strong>{answer}</p> }.into_any()
-            }
+            (_, Outcome::Shown) => answer("said shown", "The answer: "),
+            (Some(verdict), _) => said(verdict, || ().into_any()),
+            (None, Outcome::First | Outcome::Later) => answer("said right", "Answered: "),
             (None, _) => ().into_any(),
         };
-        let more = told.then(|| view! { <Told task /> });
+        let more = (outcome != Outcome::Open).then(|| view! { <Told task /> });
         view! {
             {verdict}
             {more}
         }
     };
-    view! { <div class="saying" role="status">{said}</div> }
+    view! { <div class="saying" role="status">{shown}</div> }
 }
 
 /// How the answer comes about, once it is found.
@@ -392,52 +264,5 @@ fn Told(task: StoredValue<Task>) -> impl IntoView {
             </ol>
         </details>
         {link.map(|link| view! { <p><a href=link>"Open it in Read"</a></p> })}
-    }
-}
-
-/// The next hint, and at last the answer.
-#[component]
-fn Help(key: StoredValue<Key>, attempt: Memo<Attempt>, task: StoredValue<Task>) -> impl IntoView {
-    let state = expect_context::<LearnState>().practice;
-    let change = move |change: fn(&mut Attempt)| key.with_value(|key| state.change(key, change));
-    let all = task.with_value(|task| task.hints.len());
-    let shown = move || attempt.with(|attempt| attempt.hints);
-    view! {
-        <Show when=move || shown() < all>
-            <button
-                type="button"
-                class="button"
-                on:click=move |_| change(|attempt| attempt.hints += 1)
-            >
-                <Icon glyph=Glyph::Help />
-                {move || format!("Hint {} of {all}", shown() + 1)}
-            </button>
-        </Show>
-        <Show when=move || shown() == all || attempt.with(|attempt| attempt.wrong > 2)>
-            <button
-                type="button"
-                class="button plain"
-                on:click=move |_| change(|attempt| attempt.outcome = Outcome::Shown)
-            >
-                "Show the answer"
-            </button>
-        </Show>
-    }
-}
-
-#[component]
-fn Hints(attempt: Memo<Attempt>, task: StoredValue<Task>) -> impl IntoView {
-    let hints = move || {
-        let count = attempt.with(|attempt| attempt.hints);
-        let shown = task.with_value(|task| task.hints.iter().take(count).cloned().collect::<Vec<_>>());
-        shown.into_iter().map(|hint| view! { <li>{hint}</li> }).collect_view()
-    };
-    view! {
-        <section class="hints" aria-live="polite" aria-label="Hints">
-            <Show when=move || attempt.with(|attempt| attempt.hints != 0)>
-                <h3>"Hints"</h3>
-            </Show>
-            <ol>{hints}</ol>
-        </section>
     }
 }
