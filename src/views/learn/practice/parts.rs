@@ -1,6 +1,5 @@
 //! What the screens of Practice are made of. Each is drawn by one function, so that the module holds it once.
 
-use leptos::html;
 use leptos::prelude::*;
 use web_sys::{File, FileList};
 
@@ -45,25 +44,6 @@ pub fn pressed(
 /// The way back to where practice begins.
 pub fn to_start(learn: LearnState) -> AnyView {
     button("button plain low back", Glyph::Back, "All kinds", move || go(learn, Where::Start))
-}
-
-/// A button that opens files.
-pub fn opener(label: &'static str, several: bool, on_open: Callback<File>) -> AnyView {
-    let field = NodeRef::<html::Input>::new();
-    let open = move |_| {
-        let Some(field) = field.get_untracked() else { return };
-        files(field.files()).for_each(|file| on_open.run(file));
-        // The same file can be chosen again.
-        field.set_value("");
-    };
-    view! {
-        <label class="button">
-            <Icon glyph=Glyph::Open />
-            {label}
-            <input class="unseen" type="file" multiple=several accept=".txt,text/plain" node_ref=field on:change=open />
-        </label>
-    }
-    .into_any()
 }
 
 /// The files of a list.

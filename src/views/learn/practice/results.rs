@@ -4,10 +4,12 @@ use leptos::prelude::*;
 use leptos::task::spawn_local;
 use web_sys::File;
 
-use super::parts::{lines as place, opener, pressed, to_start};
+use super::parts::{lines as place, pressed, to_start};
 use super::series::Series;
 use crate::browser::file;
 use crate::components::icon::Glyph;
+use crate::components::open_file::OpenFile;
+use crate::components::wide_table::WideTable;
 use crate::views::learn::LearnState;
 use buslens_trainer::practice::QUESTIONS;
 use buslens_trainer::result::{self, About, Line};
@@ -63,14 +65,12 @@ pub fn results() -> AnyView {
         let rows: Vec<_> = lines.get().into_iter().map(row).collect();
         (!rows.is_empty()).then(|| {
             view! {
-                <div class="table-frame" role="region" aria-label="Results" tabindex="0">
-                    <table class="table">
-                        <thead>
-                            <tr>{heads.map(|head| view! { <th scope="col">{head}</th> }).into_iter().collect_view()}</tr>
-                        </thead>
-                        <tbody>{rows}</tbody>
-                    </table>
-                </div>
+                <WideTable label="Results">
+                    <thead>
+                        <tr>{heads.map(|head| view! { <th scope="col">{head}</th> }).into_iter().collect_view()}</tr>
+                    </thead>
+                    <tbody>{rows}</tbody>
+                </WideTable>
             }
         })
     };
@@ -86,7 +86,7 @@ pub fn results() -> AnyView {
                 move |text| codes.set(text),
             )}
             <div class="acts">
-                {opener("Open files", true, Callback::new(open))}
+                <OpenFile label="Open files" multiple=true accept=".txt,text/plain" on_open=Callback::new(open) />
                 {pressed("button", Some(Glyph::Save), "Save as CSV".into(), none, Callback::new(save))}
             </div>
             {table}

@@ -5,11 +5,12 @@ use std::sync::Arc;
 use leptos::prelude::*;
 use web_sys::js_sys::Math;
 
-use super::parts::{button, mistakes, opener};
+use super::parts::{button, mistakes};
 use super::series::{Series, Source};
 use super::state::{Screen, Where};
 use super::{go, open_file};
 use crate::components::icon::{Glyph, Icon};
+use crate::components::open_file::OpenFile;
 use crate::views::learn::LearnState;
 use buslens::field::count;
 use buslens_trainer::practice::{Kind, LEVELS, QUESTIONS, Round, Seed};
@@ -89,7 +90,7 @@ pub fn start(refused: &'static str) -> AnyView {
             </p>
             <div class="acts">
                 {button("button", Glyph::Edit, "Prepare a set of tasks", move || go(learn, Where::Prepare))}
-                {opener("Open a set", false, Callback::new(move |file| open_file(learn, file, false)))}
+                <OpenFile label="Open a set" accept=".txt,text/plain" on_open=Callback::new(move |file| open_file(learn, file, false)) />
                 {button("button", Glyph::Tick, "Results of a group", move || go(learn, Where::Results))}
             </div>
         </section>
