@@ -319,3 +319,17 @@ fn what_is_pasted_becomes_a_task() {
     assert_eq!(part.lines().count(), 40);
     whole(made(&part, Hide::Any).unwrap());
 }
+
+/// What docs/practice.md shows is a set.
+#[test]
+fn the_example_of_the_docs_is_a_set() {
+    let docs = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/practice.md");
+    let docs = std::fs::read_to_string(docs).unwrap();
+    let from = docs.find("    # Friday's test").unwrap();
+    let lines = docs[from..].lines().take_while(|line| line.is_empty() || line.starts_with("    "));
+    let text: String = lines.map(|line| format!("{}\n", line.trim_start_matches("    "))).collect();
+    let (set, mistakes) = set::read(&text);
+    assert_eq!(mistakes, []);
+    assert_eq!(set.tasks.len(), 4);
+    set.tasks.iter().for_each(|task| is_solved(&task.task));
+}
