@@ -1,6 +1,5 @@
 //! The lessons that there are, what somebody has done of them, and what was typed.
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
 use leptos::prelude::*;
@@ -52,7 +51,8 @@ pub struct Refused {
 pub struct LessonsState {
     courses: RwSignal<Vec<Course>>,
     pub progress: RwSignal<Progress>,
-    attempts: RwSignal<HashMap<String, Attempt>>,
+    /// By the places of their steps.
+    attempts: RwSignal<Vec<(String, Attempt)>>,
     pub refused: RwSignal<Option<Refused>>,
     pub not_kept: RwSignal<Option<storage::NotKept>>,
     toasts: Toasts,
@@ -78,7 +78,7 @@ impl LessonsState {
         let state = Self {
             courses: RwSignal::new(courses(own.split(BETWEEN).filter(|text| !text.is_empty()))),
             progress: RwSignal::new(kept(&storage::kept(PROGRESS).unwrap_or_default())),
-            attempts: RwSignal::new(HashMap::new()),
+            attempts: RwSignal::new(Vec::new()),
             refused: RwSignal::new(None),
             not_kept: RwSignal::new(None),
             toasts: expect_context(),
@@ -117,11 +117,19 @@ impl LessonsState {
     }
 
     pub fn attempt(self, place: &str) -> Attempt {
-        self.attempts.with(|all| all.get(place).cloned().unwrap_or_default())
+        let own =
+            |all: &Vec<(String, Attempt)>| all.iter().find(|(of, _)| of == place).map(|(_, it)| it.clone());
+        self.attempts.with(own).unwrap_or_default()
     }
 
     pub fn change(self, place: &str, change: impl FnOnce(&mut Attempt)) {
-        self.attempts.update(|all| change(all.entry(place.to_owned()).or_default()));
+        self.attempts.update(|all| {
+            let at = all.iter().position(|(of, _)| of == place).unwrap_or(all.len());
+            if at == all.len() {
+                all.push((place.to_owned(), Attempt::default()));
+            }
+            change(&mut all[at].1);
+        });
     }
 
     /// Grades what was answered. A right answer finishes the step.
@@ -149,7 +157,7 @@ impl LessonsState {
         let before = self.progress.get_untracked();
         let attempts = self.attempts.get_untracked();
         self.progress.set(Progress::default());
-        self.attempts.update(HashMap::clear);
+        self.attempts.update(Vec::clear);
         self.keep();
         self.toasts.offer("All lessons are as if you had not begun.", "Undo", move || {
             self.progress.set(before.clone());
