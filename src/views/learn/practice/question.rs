@@ -4,39 +4,43 @@ use leptos::ev::SubmitEvent;
 use leptos::html;
 use leptos::prelude::*;
 
+use super::bar::bar;
 use super::given::{GivenPart, in_read, named, plain};
 use super::go;
-use super::state::{Attempt, Key, Outcome, Where};
-use crate::browser::file;
+use super::series::Shared;
+use super::state::{Attempt, Key, Outcome, Screen, Where};
 use crate::components::byte_strip::{Block, ByteStrip, Lights};
-use crate::components::copy_button::CopyButton;
 use crate::components::icon::{Glyph, Icon};
 use crate::views::learn::LearnState;
 use crate::views::learn::answer::{Answering, Blanks, Choices, Help, Hints, Typed, said};
 use buslens::field::Span;
 use buslens_trainer::notation::Notation;
-use buslens_trainer::practice::{LEVELS, QUESTIONS, Round};
-use buslens_trainer::result::RoundResult;
 use buslens_trainer::{Answer, Blank, Expected, Task, Telegram, Verdict, grade};
 
-#[component]
-pub fn Question(round: Round, index: usize) -> impl IntoView {
+pub fn question(series: Shared, index: usize) -> AnyView {
     let learn = expect_context::<LearnState>();
-    let Some(task) = round.questions().into_iter().nth(index) else { return ().into_any() };
-    let (label, next) = match index + 1 < QUESTIONS {
-        true => ("Next question", Where::Question(round, index + 1)),
-        false => ("What came of it", Where::Done(round)),
+    let Some(task) = series.tasks.get(index).cloned() else { return ().into_any() };
+    let (label, next) = match index + 1 < series.tasks.len() {
+        true => ("Next question", Screen::Question(index + 1)),
+        false => ("What came of it", Screen::Done),
     };
+    let (source, key) = (series.source.clone(), (series.source.place(), index));
+    let on_next = Callback::new(move |()| go(learn, Where::In(source.clone(), next)));
+    let about = (index == 0 && !series.about.is_empty())
+        .then(|| view! { <p class="intro">{series.about.clone()}</p> });
+    let title = series.titles.get(index).map(|title| view! { <p class="tag">{title.clone()}</p> });
     view! {
-        <RoundBar round index=Some(index) />
-        <Asked task key=(round.place(), index) label on_next=Callback::new(move |()| go(learn, next)) />
+        {bar(&series, Some(index))}
+        {about}
+        {title}
+        <Asked task key label on_next />
     }
     .into_any()
 }
 
 /// A task: what is given, the answer, what there is to say to it, hints, and what comes next.
 #[component]
-pub fn Asked(task: Task, key: Key, label: &'static str, on_next: Callback<()>) -> impl IntoView {
+fn Asked(task: Task, key: Key, label: &'static str, on_next: Callback<()>) -> impl IntoView {
     let state = expect_context::<LearnState>().practice;
     let key = StoredValue::new(key);
     let attempt = Memo::new(move |_| key.with_value(|key| state.attempt(key)));
@@ -94,68 +98,6 @@ pub fn Asked(task: Task, key: Key, label: &'static str, on_next: Callback<()>) -
             </div>
             <Hints hints shown=Signal::derive(hinted) />
         </article>
-    }
-}
-
-/// Which round this is, its questions, and what can be done with it.
-#[component]
-pub fn RoundBar(
-    round: Round,
-    /// The question that is shown.
-    index: Option<usize>,
-) -> impl IntoView {
-    let learn = expect_context::<LearnState>();
-    let outcomes = Memo::new(move |_| learn.practice.outcomes(round));
-    let dot = move |at: usize| {
-        let outcome = Memo::new(move |_| outcomes.get()[at]);
-        let class = move || match outcome.get() {
-            Outcome::Open => "dot",
-            Outcome::First => "dot good",
-            Outcome::Later => "dot good late",
-            Outcome::Shown => "dot shown",
-        };
-        view! {
-            <li>
-                <button
-                    type="button"
-                    class=class
-                    aria-label=move || format!("Question {}, {}", at + 1, outcome.get().words())
-                    aria-current=(index == Some(at)).then_some("step")
-                    on:click=move |_| go(learn, Where::Question(round, at))
-                >
-                    {move || match outcome.get() {
-                        Outcome::First | Outcome::Later => view! { <Icon glyph=Glyph::Tick /> }.into_any(),
-                        _ => (at + 1).into_any(),
-                    }}
-                </button>
-            </li>
-        }
-    };
-    view! {
-        <nav class="round" aria-label="This round">
-            <button type="button" class="button plain low" on:click=move |_| go(learn, Where::Start)>
-                <Icon glyph=Glyph::Back />
-                "All kinds"
-            </button>
-            <p>
-                <strong>{round.kind.label()}</strong>
-                {format!(", level {}", round.level)}
-                <span class="soft">
-                    " seed "
-                    <code>{round.seed.to_string()}</code>
-                </span>
-            </p>
-            <ol>{(0..QUESTIONS).map(dot).collect_view()}</ol>
-            <div class="acts">
-                <button type="button" class="button plain low" on:click=move |_| go(learn, Where::Wall(round, index.unwrap_or(0)))>
-                    "On the wall"
-                </button>
-                <button type="button" class="button plain low" on:click=move |_| go(learn, Where::Paper(round))>
-                    <Icon glyph=Glyph::Print />
-                    "Handout"
-                </button>
-            </div>
-        </nav>
     }
 }
 
@@ -322,89 +264,5 @@ fn Told(task: StoredValue<Task>) -> impl IntoView {
             </ol>
         </details>
         {link.map(|link| view! { <p><a href=link>"Open it in Read"</a></p> })}
-    }
-}
-
-/// What came of a round.
-#[component]
-pub fn Done(round: Round) -> impl IntoView {
-    let learn = expect_context::<LearnState>();
-    let state = learn.practice;
-    let outcomes = Memo::new(move |_| state.outcomes(round));
-    let counted = move |wanted: Outcome| outcomes.get().iter().filter(|it| **it == wanted).count();
-    let right = move || counted(Outcome::First);
-    let open = move || counted(Outcome::Open);
-    let code = Memo::new(move |_| RoundResult { round, right: right() }.code());
-    let headline = move || match (open(), right()) {
-        (0, QUESTIONS) => format!("All {QUESTIONS} right at the first answer."),
-        (0, right) => format!("{right} of {QUESTIONS} right at the first answer."),
-        (open, _) => format!("{} of {QUESTIONS} answered so far.", QUESTIONS - open),
-    };
-    let more = move || match counted(Outcome::Later) {
-        0 => String::new(),
-        1 => "One more came right after another try.".to_owned(),
-        later => format!("{later} more came right after another try."),
-    };
-    let harder = (round.level < *LEVELS.end()).then(|| Round {
-        level: round.level + 1,
-        seed: round.seed.next(),
-        ..round
-    });
-    let next = Round { seed: round.seed.next(), ..round };
-    let saved = move |_| {
-        let text = format!(
-            "# {}, level {}, seed {}: {} of {QUESTIONS}\n{}\n",
-            round.kind.label(),
-            round.level,
-            round.seed,
-            right(),
-            code.get_untracked()
-        );
-        file::save(&format!("buslens-{}.txt", code.get_untracked()), &text);
-    };
-    view! {
-        <RoundBar round index=None />
-        <article class="done">
-            <h3 class="headline">{headline}</h3>
-            <p class="intro">{more}</p>
-            <Show when=move || open() == 0>
-                <div class="code">
-                    <p>"Your result as a code, for your trainer"</p>
-                    <output>{code}</output>
-                    <div class="acts">
-                        <CopyButton text=code label="Copy" />
-                        <button type="button" class="button" on:click=saved>
-                            <Icon glyph=Glyph::Save />
-                            "Save as a file"
-                        </button>
-                    </div>
-                </div>
-            </Show>
-            <div class="steps">
-                <button type="button" class="button main" on:click=move |_| go(learn, Where::Question(next, 0))>
-                    "Another round"
-                    <Icon glyph=Glyph::Forward />
-                </button>
-                {harder
-                    .map(|harder| {
-                        view! {
-                            <button type="button" class="button" on:click=move |_| go(learn, Where::Question(harder, 0))>
-                                {format!("On to level {}", harder.level)}
-                            </button>
-                        }
-                    })}
-                <button
-                    type="button"
-                    class="button plain"
-                    on:click=move |_| {
-                        state.forget(round);
-                        go(learn, Where::Question(round, 0));
-                    }
-                >
-                    <Icon glyph=Glyph::Undo />
-                    "The same once more"
-                </button>
-            </div>
-        </article>
     }
 }

@@ -13,10 +13,10 @@ use leptos::prelude::*;
 
 use super::ReadState;
 use super::log::Stage;
-use super::open_file::OpenFile;
 use super::times::stretch;
 use crate::components::icon::{Glyph, Icon};
 use crate::components::menu::{Menu, MenuItem, MenuLink};
+use crate::components::open_file::OpenFile;
 use crate::views::outgoing::{PassOn, Summary};
 use crate::worker::messages::{Export, Request};
 use buslens::field::many;
@@ -104,7 +104,7 @@ fn FileBar() -> impl IntoView {
                     <Icon glyph=Glyph::Close />
                     "Close"
                 </button>
-                <OpenFile label="Open another" class="plain" />
+                <OpenFile label="Open another" class="plain" on_open=read.opener() />
                 <Tools />
                 <Menu label="Export" glyph=Glyph::Save at_end=true>
                     {Export::FILES.map(export).into_iter().collect_view()}
