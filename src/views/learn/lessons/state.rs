@@ -9,10 +9,11 @@ use web_sys::File;
 use crate::address::{View, href};
 use crate::browser::{file, storage};
 use crate::components::toast::Toasts;
+use crate::views::learn::attempt::Attempt;
 use buslens::field::in_order;
 use buslens::tool::link::Link;
+use buslens_trainer::Answer;
 use buslens_trainer::lesson::{LESSONS, Lesson, Mistake, Progress, Step, read};
-use buslens_trainer::{Answer, Verdict};
 
 /// A lesson with its text, which can be saved, changed and opened again.
 #[derive(Clone)]
@@ -29,15 +30,6 @@ pub struct Here {
     pub course: Course,
     /// From 0.
     pub step: usize,
-}
-
-/// What somebody did with a task so far.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Attempt {
-    pub answer: Option<Answer>,
-    pub verdict: Option<Verdict>,
-    /// How many hints are shown.
-    pub hints: usize,
 }
 
 /// A file that holds no lesson as it should.
@@ -142,8 +134,8 @@ impl LessonsState {
             self.keep();
         }
         self.change(&here.place(), |attempt| {
-            attempt.answer = Some(answer);
-            attempt.verdict = Some(verdict);
+            attempt.enter(answer);
+            attempt.take(verdict);
         });
     }
 
