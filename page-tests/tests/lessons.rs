@@ -166,7 +166,7 @@ async fn a_start_up_is_stepped_through_and_mended() -> Result {
     for _ in 0..3 {
         page.press_button("Next").await?;
     }
-    page.until(".spoken", "Only here it says: parameter fault").await?;
+    page.until(".spoken", "Only here it says: not ready, parameter fault").await?;
     let shown = "return [...document.querySelectorAll('.sides > ol > li:not([hidden])')].length";
     assert_eq!(page.value(shown).await?, json!(4));
     page.picture("lesson-startup-desktop-light").await?;

@@ -2,6 +2,7 @@
 
 use leptos::prelude::*;
 
+use super::attempt::Attempt;
 use super::words::Words;
 use crate::components::byte_strip::{Block, Chosen, Lights};
 use crate::components::icon::{Glyph, Icon};
@@ -11,51 +12,55 @@ use buslens_trainer::{Answer, Remark, Verdict, letter};
 /// A task that somebody answers.
 #[derive(Clone, Copy)]
 pub struct Answering {
-    pub answer: Signal<Option<Answer>>,
-    pub verdict: Signal<Option<Verdict>>,
-    /// It is over: nothing can be changed any more.
-    pub done: Signal<bool>,
-    pub on_answer: Callback<Answer>,
+    pub attempt: Memo<Attempt>,
+    pub on_change: Callback<Attempt>,
 }
 
 impl Answering {
+    pub fn change(self, change: impl FnOnce(&mut Attempt)) {
+        let mut attempt = self.attempt.get_untracked();
+        change(&mut attempt);
+        self.on_change.run(attempt);
+    }
+
+    pub fn enter(self, answer: Answer) {
+        self.change(|attempt| attempt.enter(answer));
+    }
+
     /// What was typed.
     pub fn text(self) -> Option<String> {
-        self.answer.with(|answer| match answer {
-            Some(Answer::Text(text)) => Some(text.clone()),
-            _ => None,
-        })
+        self.attempt.with(|attempt| attempt.text().map(str::to_owned))
     }
 
-    fn has_chosen(self, index: usize) -> bool {
-        self.answer.with(|answer| *answer == Some(Answer::Choice(index)))
-    }
-
-    /// Whether the answer was checked, and found right or not.
+    /// Whether what is chosen was checked, and found right or not.
     fn is_checked(self, right: bool) -> bool {
-        self.verdict.with(|verdict| verdict.as_ref().is_some_and(|it| it.is_right() == right))
+        self.attempt.with(|attempt| attempt.is_checked(right))
+    }
+
+    fn is_closed(self) -> bool {
+        self.attempt.with(Attempt::is_closed)
     }
 
     /// Whether something is off in these bytes.
     fn is_off(self, span: Span) -> bool {
-        self.verdict.with(|verdict| {
-            let remarks = verdict.as_ref().map_or(&[][..], Verdict::remarks);
+        self.attempt.with(|attempt| {
+            let remarks = attempt.verdict.as_ref().map_or(&[][..], Verdict::remarks);
             remarks.iter().any(|it| it.span.is_some_and(|it| it.from < span.to && span.from < it.to))
         })
     }
 
     /// Takes the byte that is chosen in a strip for the answer.
     pub fn take_byte(self, lights: Lights) {
-        if let Some(Answer::Byte(at)) = self.answer.get_untracked() {
+        if let Some(Answer::Byte(at)) = self.attempt.with_untracked(|attempt| attempt.answer.clone()) {
             lights.chosen.set(Some(Chosen { span: Span::new(at, at + 1), at }));
         }
         Effect::new(move |before: Option<Option<usize>>| {
             let at = lights.chosen.get().map(|chosen| chosen.at);
             if let (Some(byte), Some(before)) = (at, before)
                 && before != at
-                && !self.done.get_untracked()
+                && !self.attempt.with_untracked(Attempt::is_closed)
             {
-                self.on_answer.run(Answer::Byte(byte));
+                self.enter(Answer::Byte(byte));
             }
             at
         });
@@ -64,9 +69,9 @@ impl Answering {
 
 /// Sentences, one of which is right.
 #[component]
-pub fn Choices(answering: Answering, texts: Vec<String>) -> impl IntoView {
+pub fn Choices(answering: Answering, texts: Vec<String>) -> AnyView {
     let choice = move |(index, text): (usize, String)| {
-        let chosen = move || answering.has_chosen(index);
+        let chosen = move || answering.attempt.with(|attempt| attempt.answer == Some(Answer::Choice(index)));
         view! {
             <label
                 class="choice"
@@ -77,8 +82,8 @@ pub fn Choices(answering: Answering, texts: Vec<String>) -> impl IntoView {
                     type="radio"
                     name="choice"
                     prop:checked=chosen
-                    prop:disabled=answering.done
-                    on:change=move |_| answering.on_answer.run(Answer::Choice(index))
+                    prop:disabled=move || answering.is_closed()
+                    on:change=move |_| answering.enter(Answer::Choice(index))
                 />
                 <span class="soft">{letter(index)} ")"</span>
                 <span>
@@ -93,6 +98,7 @@ pub fn Choices(answering: Answering, texts: Vec<String>) -> impl IntoView {
             {texts.into_iter().enumerate().map(choice).collect_view()}
         </fieldset>
     }
+    .into_any()
 }
 
 /// A field for hex and numbers.
@@ -108,7 +114,7 @@ fn Input(
     /// How many bytes go in, where that is known.
     #[prop(optional)]
     bytes: Option<usize>,
-) -> impl IntoView {
+) -> AnyView {
     view! {
         <input
             class="input mono"
@@ -120,10 +126,11 @@ fn Input(
             aria-label=name
             aria-invalid=move || off.get().to_string()
             prop:value=text
-            prop:readOnly=answering.done
+            prop:readOnly=move || answering.is_closed()
             on:input=move |event| on_type.run(event_target_value(&event))
         />
     }
+    .into_any()
 }
 
 /// A number or bytes, typed.
@@ -140,7 +147,7 @@ pub fn Typed(
     /// A number is no longer than this.
     #[prop(optional)]
     short: bool,
-) -> impl IntoView {
+) -> AnyView {
     let text = Signal::derive(move || answering.text().unwrap_or_else(|| start.clone()));
     let off = Signal::derive(move || answering.is_checked(false));
     view! {
@@ -150,18 +157,19 @@ pub fn Typed(
                 answering
                 text
                 off
-                on_type=Callback::new(move |text| answering.on_answer.run(Answer::Text(text)))
+                on_type=Callback::new(move |text| answering.enter(Answer::Text(text)))
             />
         </label>
     }
+    .into_any()
 }
 
 /// A telegram some of whose fields are to be filled in.
 #[component]
-pub fn Blanks(answering: Answering, blocks: Vec<Block>, spans: Vec<Span>) -> impl IntoView {
+pub fn Blanks(answering: Answering, blocks: Vec<Block>, spans: Vec<Span>) -> AnyView {
     let length = spans.len();
     let texts = move || {
-        answering.answer.with(|answer| match answer {
+        answering.attempt.with(|attempt| match &attempt.answer {
             Some(Answer::Blanks(texts)) => texts.clone(),
             _ => vec![String::new(); length],
         })
@@ -177,7 +185,7 @@ pub fn Blanks(answering: Answering, blocks: Vec<Block>, spans: Vec<Span>) -> imp
                     let mut all = untrack(texts);
                     all.resize(length, String::new());
                     all[index] = text;
-                    answering.on_answer.run(Answer::Blanks(all));
+                    answering.enter(Answer::Blanks(all));
                 };
                 let name = format!("{name}, {} in hex", count(span.len(), "byte"));
                 view! { <Input answering text off name bytes=span.len() on_type=Callback::new(enter) /> }
@@ -197,10 +205,11 @@ pub fn Blanks(answering: Answering, blocks: Vec<Block>, spans: Vec<Span>) -> imp
             {blocks.into_iter().map(block).collect_view()}
         </ol>
     }
+    .into_any()
 }
 
 /// What there is to say to an answer, and to one that is right what else there is to know.
-pub fn said(verdict: Verdict, then: impl FnOnce() -> AnyView) -> AnyView {
+pub fn said(verdict: Verdict, then: &dyn Fn() -> AnyView) -> AnyView {
     let remark = |Remark { field, text, .. }: Remark| {
         let text = text.sentence();
         // A sentence that has the field in it need not be told whose it is.
@@ -242,38 +251,51 @@ pub fn said(verdict: Verdict, then: impl FnOnce() -> AnyView) -> AnyView {
 
 /// Hints, as far as they were asked for.
 #[component]
-pub fn Hints(hints: Vec<String>, #[prop(into)] shown: Signal<usize>) -> impl IntoView {
+pub fn Hints(answering: Answering, hints: Vec<String>) -> AnyView {
+    let shown = Memo::new(move |_| answering.attempt.with(|attempt| attempt.hints));
     let hint =
         |text: &String| view! { <li><Icon glyph=Glyph::Hint /><span><Words text=text.clone() /></span></li> };
     let rows = move || hints.iter().take(shown.get()).map(hint).collect_view();
-    view! { <ol class="hints" aria-label="Hints" aria-live="polite">{rows}</ol> }
+    view! { <ol class="hints" aria-label="Hints" aria-live="polite">{rows}</ol> }.into_any()
 }
+
+/// Who gave so many wrong answers need not go through all hints.
+const STUCK: usize = 3;
 
 /// Asks for one hint more, and in the end for the answer.
 #[component]
 pub fn Help(
+    answering: Answering,
+    /// How many hints there are.
     count: usize,
-    #[prop(into)] shown: Signal<usize>,
-    /// The answer is offered, too.
-    #[prop(into)]
-    answer: Signal<bool>,
     /// What the answer is asked for by.
     label: &'static str,
-    on_hint: Callback<()>,
     on_answer: Callback<()>,
-) -> impl IntoView {
-    let next = move || match shown.get() {
+) -> AnyView {
+    let hints =
+        move || answering.attempt.with(|attempt| if attempt.is_over() { count } else { attempt.hints });
+    let told = move || hints() >= count;
+    let answer = move || {
+        let attempt = answering.attempt.get();
+        !attempt.is_over() && (attempt.hints >= count || attempt.wrong >= STUCK)
+    };
+    let next = move || match hints() {
         0 => "Give me a hint".to_owned(),
         shown => format!("Another hint, {} of {count}", shown + 1),
     };
-    let told = move || shown.get() >= count;
     view! {
-        <button type="button" class="button" hidden=told on:click=move |_| on_hint.run(())>
+        <button
+            type="button"
+            class="button"
+            hidden=told
+            on:click=move |_| answering.change(|attempt| attempt.hints += 1)
+        >
             <Icon glyph=Glyph::Hint />
             {next}
         </button>
-        <button type="button" class="button plain" hidden=move || !answer.get() on:click=move |_| on_answer.run(())>
+        <button type="button" class="button plain" hidden=move || !answer() on:click=move |_| on_answer.run(())>
             {label}
         </button>
     }
+    .into_any()
 }

@@ -1,6 +1,7 @@
 //! Learn: lessons, tasks without end, and everything to look up, on the components of the other views.
 
 mod answer;
+mod attempt;
 mod gallery;
 mod lessons;
 mod practice;

@@ -1,7 +1,5 @@
 //! A telegram that was to be made: compared byte by byte, explained field by field.
 
-use std::collections::HashMap;
-
 use buslens::field::{Argument, Check, Field, Message, Order, Role, Span, Value, hex};
 use buslens::message;
 use buslens::tool::steps::{self, CHECKS};
@@ -153,15 +151,13 @@ fn compare(wanted: &Telegram, given: &[u8], typed: usize, typed_check: bool) -> 
 
 /// Each field that is wanted with its like among those that are given.
 fn pairs<'a>(wanted: &'a [Field], given: &'a [Field]) -> Vec<(&'a Field, Option<&'a Field>)> {
-    let mut used: HashMap<(&str, &str), usize> = HashMap::new();
-    let pair = |field: &'a Field| {
-        let name = (field.spec.key, field.spec.label);
-        let nth = used.entry(name).or_default();
-        let like = given.iter().filter(|other| (other.spec.key, other.spec.label) == name).nth(*nth);
-        *nth += 1;
-        (field, like)
+    let alike =
+        |one: &Field, other: &Field| (one.spec.key, one.spec.label) == (other.spec.key, other.spec.label);
+    let pair = |(at, field): (usize, &'a Field)| {
+        let nth = wanted[..at].iter().filter(|before| alike(before, field)).count();
+        (field, given.iter().filter(|other| alike(other, field)).nth(nth))
     };
-    wanted.iter().map(pair).collect()
+    wanted.iter().enumerate().map(pair).collect()
 }
 
 /// A field whose value is the sender's own choice.

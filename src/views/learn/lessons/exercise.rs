@@ -10,11 +10,12 @@ use crate::components::byte_strip::{Block, ByteStrip, Chosen, Lights, blocks};
 use crate::components::icon::{Glyph, Icon};
 use crate::views::learn::LearnState;
 use crate::views::learn::answer::{Answering, Blanks, Choices, Help, Hints, Typed, said};
+use crate::views::learn::attempt::Attempt;
 use crate::views::learn::words::Words;
 use buslens::field::{Span, hex};
 use buslens::tool::steps::{CHECKS, bytes};
 use buslens_trainer::lesson::{Ask, Checksum, Exercise as Asked, Step};
-use buslens_trainer::{Answer, Telegram, Verdict};
+use buslens_trainer::{Answer, Telegram};
 
 #[component]
 pub fn Exercise(here: Here) -> impl IntoView {
@@ -23,51 +24,36 @@ pub fn Exercise(here: Here) -> impl IntoView {
     let Some(exercise) = step.exercise.clone() else {
         return view! { <aside class="task"><Onward here /></aside> }.into_any();
     };
-    let place = StoredValue::new(here.place());
-    let attempt = Memo::new(move |_| state.attempt(&place.get_value()));
-    let change = move |answer: Answer| {
-        // Somebody answers something else: what was said of the last answer is over.
-        state.change(&place.get_value(), |attempt| {
-            attempt.answer = Some(answer);
-            attempt.verdict = None;
-        });
+    let place = here.place();
+    let attempt = {
+        let place = place.clone();
+        Memo::new(move |_| state.attempt(&place))
     };
-    let answering = Answering {
-        answer: Signal::derive(move || attempt.with(|it| it.answer.clone())),
-        verdict: Signal::derive(move || attempt.with(|it| it.verdict.clone())),
-        done: Signal::stored(false),
-        on_answer: Callback::new(change),
-    };
+    let on_change = Callback::new(move |changed| state.change(&place, |attempt| *attempt = changed));
+    let answering = Answering { attempt, on_change };
     let hints: Vec<String> = exercise.hints.iter().map(|hint| step.filled_in(hint)).collect();
     let (question, then) = (step.filled_in(&exercise.question), step.filled_in(&exercise.then));
     let right = exercise.answer(&step);
-    let is_right = move || attempt.with(|it| it.verdict.as_ref().is_some_and(Verdict::is_right));
-    let (count, shown) = (hints.len(), move || attempt.with(|attempt| attempt.hints));
-    let help = Signal::derive(move || if is_right() { count } else { shown() });
-    let fill = move |()| right.iter().cloned().for_each(change);
+    let fill = move |()| right.iter().cloned().for_each(|right| answering.enter(right));
     // Who changed nothing hands in what was there.
     let start = exercise.start();
-    let place_for_it = place_for(answering, &step, &exercise);
+    let form = place_for(answering, &step, &exercise);
     let here = StoredValue::new(here);
     let submit = move |event: SubmitEvent| {
         event.prevent_default();
         let answer = attempt.with_untracked(|it| it.answer.clone());
         here.with_value(|here| state.grade(here, answer.unwrap_or_else(|| Answer::Text(start.clone()))));
     };
-    let outcome = move || {
-        let (then, here) = (then.clone(), here.get_value());
-        answering.verdict.get().map(|verdict| {
-            said(verdict, || {
-                view! {
-                    <p>
-                        <Words text=then />
-                    </p>
-                    <Onward here />
-                }
-                .into_any()
-            })
-        })
+    let on = move || {
+        view! {
+            <p>
+                <Words text=then.clone() />
+            </p>
+            <Onward here=here.get_value() />
+        }
+        .into_any()
     };
+    let outcome = move || attempt.get().verdict.map(|verdict| said(verdict, &on));
     view! {
         <aside class="task" aria-labelledby="task-title">
             <div class="stays">
@@ -79,23 +65,16 @@ pub fn Exercise(here: Here) -> impl IntoView {
                     <Words text=question />
                 </h3>
                 <form on:submit=submit>
-                    {place_for_it}
+                    {form}
                     <div role="status">{outcome}</div>
                     <div class="actions">
-                        <button type="submit" class="button" class:main=move || !is_right()>
+                        <button type="submit" class="button" class:main=move || !attempt.with(Attempt::is_over)>
                             "Check my answer"
                         </button>
-                        <Help
-                            count
-                            shown=help
-                            answer=Signal::derive(move || shown() >= count && !is_right())
-                            label="Fill in the answer"
-                            on_hint=Callback::new(move |()| state.change(&place.get_value(), |attempt| attempt.hints += 1))
-                            on_answer=Callback::new(fill)
-                        />
+                        <Help answering count=hints.len() label="Fill in the answer" on_answer=Callback::new(fill) />
                     </div>
                 </form>
-                <Hints hints shown=Signal::derive(shown) />
+                <Hints answering hints />
             </div>
         </aside>
     }
@@ -138,7 +117,7 @@ fn place_for(answering: Answering, step: &Step, exercise: &Asked) -> AnyView {
             let start = number(from);
             let value = Signal::derive(move || answering.text().map_or(start, |text| number(&bytes(&text))));
             let on_set = Callback::new(move |value: u32| {
-                answering.on_answer.run(Answer::Text(hex(&value.to_be_bytes()[4 - width..])));
+                answering.enter(Answer::Text(hex(&value.to_be_bytes()[4 - width..])));
             });
             view! { <Switches value on_set width reading=*reading wanted=number(to) /> }.into_any()
         }
@@ -174,7 +153,7 @@ fn Live(
     });
     // What is off lights up.
     Effect::new(move |_| {
-        let span = answering.verdict.with(|verdict| verdict.as_ref()?.remarks().first()?.span);
+        let span = answering.attempt.with(|attempt| attempt.verdict.as_ref()?.remarks().first()?.span);
         lights.chosen.set(span.filter(|span| !span.is_empty()).map(|span| Chosen { span, at: span.from }));
     });
     view! {

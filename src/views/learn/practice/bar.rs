@@ -5,9 +5,10 @@ use leptos::prelude::*;
 use super::go;
 use super::parts::{button, to_start};
 use super::series::Shared;
-use super::state::{Outcome, Screen, Where};
+use super::state::{Screen, Where};
 use crate::components::icon::{Glyph, Icon};
 use crate::views::learn::LearnState;
+use crate::views::learn::attempt::Outcome;
 
 /// `index` is the task that is shown, if one is.
 pub fn bar(series: &Shared, index: Option<usize>) -> AnyView {

@@ -6,11 +6,12 @@ use super::bar::bar;
 use super::go;
 use super::parts::button;
 use super::series::{Shared, Source};
-use super::state::{Outcome, Screen, Where};
+use super::state::{Screen, Where};
 use crate::browser::file;
 use crate::components::copy_button::CopyButton;
 use crate::components::icon::Glyph;
 use crate::views::learn::LearnState;
+use crate::views::learn::attempt::Outcome;
 use buslens_trainer::practice::{LEVELS, Round};
 use buslens_trainer::result::RoundResult;
 

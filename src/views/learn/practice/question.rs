@@ -8,14 +8,15 @@ use super::bar::bar;
 use super::given::{GivenPart, in_read, named, plain};
 use super::go;
 use super::series::Shared;
-use super::state::{Attempt, Key, Outcome, Screen, Where};
+use super::state::{Key, Screen, Where};
 use crate::components::byte_strip::{Block, ByteStrip, Lights};
 use crate::components::icon::{Glyph, Icon};
 use crate::views::learn::LearnState;
 use crate::views::learn::answer::{Answering, Blanks, Choices, Help, Hints, Typed, said};
+use crate::views::learn::attempt::{Attempt, Outcome};
 use buslens::field::Span;
 use buslens_trainer::notation::Notation;
-use buslens_trainer::{Answer, Blank, Expected, Task, Telegram, Verdict, grade};
+use buslens_trainer::{Answer, Blank, Expected, Task, Telegram, grade};
 
 pub fn question(series: Shared, index: usize) -> AnyView {
     let learn = expect_context::<LearnState>();
@@ -66,12 +67,10 @@ fn Asked(task: Task, key: Key, label: &'static str, on_next: Callback<()>) -> im
     let question = task.question.clone();
     let hints = task.hints.clone();
     let task = StoredValue::new(task);
-    let change = move |change: fn(&mut Attempt)| key.with_value(|key| state.change(key, change));
-    let (all, hinted) = (hints.len(), move || attempt.with(|attempt| attempt.hints));
-    let helped = Signal::derive(move || if told.get() { all } else { hinted() });
-    // Who is stuck need not go through all hints.
-    let stuck = move || attempt.with(|attempt| attempt.wrong > 2);
-    let offered = Signal::derive(move || !told.get() && (hinted() >= all || stuck()));
+    let on_change =
+        Callback::new(move |changed: Attempt| key.with_value(|key| state.change(key, |it| *it = changed)));
+    let answering = Answering { attempt, on_change };
+    let show = move |()| answering.change(|attempt| attempt.outcome = Outcome::Shown);
     view! {
         <article class="question">
             <div class="ask">
@@ -79,59 +78,35 @@ fn Asked(task: Task, key: Key, label: &'static str, on_next: Callback<()>) -> im
                     {question}
                 </h3>
                 {given}
-                <AnswerForm key attempt task lights />
+                <AnswerForm answering task lights />
                 <Said attempt task />
                 <div class="steps">
-                    <Help
-                        count=hints.len()
-                        shown=helped
-                        answer=offered
-                        label="Show the answer"
-                        on_hint=Callback::new(move |()| change(|attempt| attempt.hints += 1))
-                        on_answer=Callback::new(move |()| change(|attempt| attempt.outcome = Outcome::Shown))
-                    />
+                    <Help answering count=hints.len() label="Show the answer" on_answer=Callback::new(show) />
                     <button type="button" class="button main" hidden=move || !told.get() on:click=move |_| on_next.run(())>
                         {label}
                         <Icon glyph=Glyph::Forward />
                     </button>
                 </div>
             </div>
-            <Hints hints shown=Signal::derive(hinted) />
+            <Hints answering hints />
         </article>
     }
 }
 
 /// What somebody answers.
 #[component]
-fn AnswerForm(
-    key: StoredValue<Key>,
-    attempt: Memo<Attempt>,
-    task: StoredValue<Task>,
-    lights: Lights,
-) -> impl IntoView {
-    let state = expect_context::<LearnState>().practice;
-    let change = move |change: &dyn Fn(&mut Attempt)| key.with_value(|key| state.change(key, change));
-    let enter = move |answer: Answer| {
-        change(&|attempt| {
-            // What was said is about another answer.
-            if attempt.answer.as_ref() != Some(&answer) {
-                attempt.verdict = None;
-            }
-            attempt.answer = Some(answer.clone());
-        });
-    };
-    let answering = Answering {
-        answer: Signal::derive(move || attempt.with(|attempt| attempt.answer.clone())),
-        verdict: Signal::derive(move || attempt.with(|attempt| attempt.verdict.clone())),
-        done: Signal::derive(move || attempt.with(|attempt| attempt.outcome != Outcome::Open)),
-        on_answer: Callback::new(enter),
-    };
+fn AnswerForm(answering: Answering, task: StoredValue<Task>, lights: Lights) -> impl IntoView {
+    let attempt = answering.attempt;
     let check = move |event: SubmitEvent| {
         event.prevent_default();
-        let answer = attempt.with_untracked(|attempt| attempt.answer.clone());
-        let answer = answer.unwrap_or(Answer::Text(String::new()));
-        let verdict = task.with_value(|task| grade(task, &answer));
-        change(&|attempt| take(attempt, verdict.clone()));
+        answering.change(|attempt| {
+            let answer = attempt.answer.clone().unwrap_or(Answer::Text(String::new()));
+            let verdict = task.with_value(|task| grade(task, &answer));
+            if verdict.is_right() {
+                attempt.outcome = if attempt.wrong == 0 { Outcome::First } else { Outcome::Later };
+            }
+            attempt.take(verdict);
+        });
     };
     let input = task.with_value(|task| match &task.expected {
         Expected::Telegram(_) => {
@@ -153,7 +128,7 @@ fn AnswerForm(
             // A byte is chosen in the strip.
             answering.take_byte(lights);
             let bytes = telegram.bytes.clone();
-            let chosen = move || match answering.answer.get() {
+            let chosen = move || match attempt.get().answer {
                 Some(Answer::Byte(at)) => {
                     format!("Byte {at}, {:02X}", bytes.get(at).copied().unwrap_or_default())
                 }
@@ -169,7 +144,7 @@ fn AnswerForm(
     view! {
         <form class="answer" on:submit=check>
             {input}
-            <button type="submit" class="button main" hidden=answering.done>
+            <button type="submit" class="button main" hidden=move || attempt.with(Attempt::is_closed)>
                 "Check the answer"
             </button>
         </form>
@@ -198,17 +173,6 @@ fn with_blanks(telegram: &Telegram, blanks: &[Blank]) -> Vec<Block> {
     blocks
 }
 
-/// Takes what was said to an answer.
-fn take(attempt: &mut Attempt, verdict: Verdict) {
-    match verdict {
-        Verdict::Right(_) if attempt.wrong == 0 => attempt.outcome = Outcome::First,
-        Verdict::Right(_) => attempt.outcome = Outcome::Later,
-        Verdict::Wrong(_) => attempt.wrong += 1,
-        Verdict::Unread(_) => {}
-    }
-    attempt.verdict = Some(verdict);
-}
-
 /// What there is to say to the answer.
 #[component]
 fn Said(attempt: Memo<Attempt>, task: StoredValue<Task>) -> impl IntoView {
@@ -220,7 +184,7 @@ fn Said(attempt: Memo<Attempt>, task: StoredValue<Task>) -> impl IntoView {
         };
         let verdict = match (verdict, outcome) {
             (_, Outcome::Shown) => answer("said shown", "The answer: "),
-            (Some(verdict), _) => said(verdict, || ().into_any()),
+            (Some(verdict), _) => said(verdict, &|| ().into_any()),
             (None, Outcome::First | Outcome::Later) => answer("said right", "Answered: "),
             (None, _) => ().into_any(),
         };

@@ -8,10 +8,10 @@ use leptos::prelude::*;
 use super::series::{Series, Shared, Source};
 use crate::browser::storage;
 use crate::components::toast::Toasts;
+use crate::views::learn::attempt::{Attempt, Outcome};
 use buslens_trainer::lesson::Mistake;
 use buslens_trainer::practice::{NoRound, Seed};
 use buslens_trainer::set;
-use buslens_trainer::{Answer, Verdict};
 
 /// What is shown.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -79,61 +79,6 @@ impl Where {
             Screen::Wall(index) => format!("wall.{place}.{}", index + 1),
         }
     }
-}
-
-/// How it went with a question.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Outcome {
-    #[default]
-    Open,
-    /// Right at the first answer.
-    First,
-    /// Right after others.
-    Later,
-    /// The answer was shown.
-    Shown,
-}
-
-impl Outcome {
-    /// The letter that it is kept by.
-    const fn letter(self) -> char {
-        match self {
-            Self::Open => '-',
-            Self::First => '1',
-            Self::Later => '2',
-            Self::Shown => '0',
-        }
-    }
-
-    fn of(letter: char) -> Self {
-        [Self::First, Self::Later, Self::Shown]
-            .into_iter()
-            .find(|it| it.letter() == letter)
-            .unwrap_or_default()
-    }
-
-    pub const fn words(self) -> &'static str {
-        match self {
-            Self::Open => "open",
-            Self::First => "right at the first answer",
-            Self::Later => "right after another try",
-            Self::Shown => "the answer was shown",
-        }
-    }
-}
-
-/// What somebody did with a question.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Attempt {
-    /// What is typed or chosen.
-    pub answer: Option<Answer>,
-    /// What was said to it.
-    pub verdict: Option<Verdict>,
-    /// Answers that were wrong.
-    pub wrong: usize,
-    /// Hints that are shown.
-    pub hints: usize,
-    pub outcome: Outcome,
 }
 
 /// Which question: the place of its round, or of a task by itself, and its index there.
