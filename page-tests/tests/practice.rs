@@ -2,7 +2,7 @@
 
 use buslens_trainer::practice::{Kind, QUESTIONS, Round, Seed};
 use buslens_trainer::result::{About, RoundResult};
-use buslens_trainer::{Answer, Expected, Task, Verdict, grade};
+use buslens_trainer::{Answer, Expected, Given, Task, Verdict, grade};
 use page_tests::{DESKTOP, NARROW, PHONE, Page, Result};
 use serde_json::json;
 
@@ -309,14 +309,30 @@ async fn practice_opens_a_set() -> Result {
     Ok(())
 }
 
-/// What is in Read becomes a task.
+/// What is in Read becomes a task: a telegram, and of a log what is around the telegram that is shown.
 #[tokio::test(flavor = "multi_thread")]
 async fn practice_takes_what_is_in_read() -> Result {
     let page = Page::open_at("#/read?text=01+03+00+C8+00+03+84+35", DESKTOP, false).await?;
     page.wait_for(".byte-strip").await?;
-    page.go("#/learn?place=practice.read").await?;
+    page.click(".input-tools a[href='#/sheet']").await?;
+    page.press_button("Save as").await?;
+    page.click_text("[role=menuitem]", "A task for learners").await?;
     page.until_value(".adding textarea", "01 03 00 C8 00 03 84 35").await?;
     page.press_button("Add the task").await?;
     page.until(".chosen-tasks .soft", "This was to be: ask unit 1").await?;
+    page.view("read").await?;
+    page.wait_for(".byte-strip").await?;
+    let Some(Given::Text(log)) = round(Kind::Silence, 3).questions()[0].given.first().cloned() else {
+        panic!()
+    };
+    page.paste(&log).await?;
+    page.wait_for(".file-bar").await?;
+    page.press_button("Export").await?;
+    page.click_text("[role=menuitem]", "A task for learners").await?;
+    page.until_value(".adding textarea", "TX").await?;
+    page.choose_in("What is to be found", "A log as it is: who does not answer?").await?;
+    page.press_button("Add the task").await?;
+    page.until(".chosen-tasks li:nth-child(2) .soft", "never answers").await?;
+    page.picture("practice-from-read-desktop-light").await?;
     page.close().await
 }

@@ -3,6 +3,7 @@
 use leptos::ev::KeyboardEvent;
 use leptos::html;
 use leptos::prelude::*;
+use leptos::reactive::graph::Source;
 
 use super::roving;
 use buslens::field::{Field, Numbering, Role, Severity, Span, Value, leaves};
@@ -25,6 +26,14 @@ pub struct Lights {
 impl Lights {
     pub fn new() -> Self {
         Self { pointed: RwSignal::new(None), chosen: RwSignal::new(None) }
+    }
+
+    /// A signal keeps what listened to it and is gone (reactive_graph 0.2): here only what is still there comes back.
+    fn forget(&self) {
+        self.pointed.notify();
+        self.pointed.clear_subscribers();
+        self.chosen.notify();
+        self.chosen.clear_subscribers();
     }
 
     /// Whoever looks is told only where something was lit.
@@ -74,6 +83,9 @@ impl Block {
     }
 }
 
+/// After how many blocks made anew those that are gone are forgotten.
+const LIGHTS_LAST: u32 = 4096;
+
 /// More bytes than a telegram can have are not worth a cell each.
 const MOST: usize = 300;
 
@@ -110,10 +122,16 @@ pub fn ByteStrip(
             choose(at);
         }
     };
+    let made = StoredValue::new(0_u32);
     let shown = move || {
+        if made.get_value() > LIGHTS_LAST {
+            made.set_value(0);
+            lights.forget();
+        }
         blocks.with(|all| all.iter().filter(|block| block.span.from < MOST).cloned().collect::<Vec<_>>())
     };
     let block = move |index: ReadSignal<usize>, first: Block| {
+        made.update_value(|made| *made += 1);
         let (span, length, label) = (first.span, first.bytes.len(), first.label.clone());
         let block = Memo::new(move |before: Option<&Block>| {
             let now = blocks.with(|all| all.get(index.get()).cloned());

@@ -106,7 +106,20 @@ impl Traffic {
             if flowing && !last && bytes.len() - at < SEEN {
                 break;
             }
-            let waiting = self.waiting[port];
+            if in_step && main.is(&modbus_rtu::PROTOCOL) && !flowing && !self.both_ways {
+                self.framed.clear();
+                let run = self.splitter.run(&bytes[at..], last, &mut self.waiting[port], &mut self.framed);
+                if run > 0 {
+                    let kept = *kept.get_or_insert_with(|| keep(&mut self.data, bytes));
+                    let framed = std::mem::take(&mut self.framed);
+                    self.push_all(index, &bytes[at..], from + at, kept + at, &framed);
+                    self.framed = framed;
+                    at += run;
+                    garbage = at;
+                    continue;
+                }
+            }
+            let waiting = self.waiting[port].as_ref();
             let place = Place { bytes: &bytes[at..], last, in_step, waiting };
             match self.splitter.begins(main, place) {
                 Begins::Telegram(length) => {
@@ -142,7 +155,16 @@ impl Traffic {
         }
         if last && garbage < at {
             let kept = *kept.get_or_insert_with(|| keep(&mut self.data, bytes));
-            self.unframed(index, &bytes[garbage..at], from + garbage, kept + garbage);
+            let rest = &bytes[garbage..at];
+            match evidence::reading(rest, &self.splitter, self.waiting[port]) {
+                // The recording ends within the answer.
+                Some(cut) if cut.cut && cut.awaited && cut.from == 0 && main.is(&modbus_rtu::PROTOCOL) => {
+                    let (from, at) = (from + garbage, kept + garbage);
+                    self.push(index, rest, from, at, cut.protocol, cut.verdict, Role::Plain);
+                    self.entries.last_mut().expect("it was added").sides = [false, true];
+                }
+                _ => self.unframed(index, rest, from + garbage, kept + garbage),
+            }
             garbage = at;
         }
         if let Some(kept) = kept {
