@@ -191,7 +191,7 @@ async fn where_the_checksum_is_asked_for_the_page_adds_none() -> Result {
     page.until(".task .byte-strip", "02").await?;
     assert_eq!(page.count(".task .note").await?, 0);
     page.press_button("Check my answer").await?;
-    page.until(".task .said.wrong", "Its checksum is missing").await?;
+    page.until(".task .said.wrong", "The CRC is missing").await?;
     page.fill(".task .typed input", "02 07 41 12").await?;
     page.press_button("Check my answer").await?;
     page.until(".task .said.right", "in the standard").await?;

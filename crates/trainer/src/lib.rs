@@ -30,4 +30,4 @@ pub mod set;
 pub mod task;
 
 pub use grade::{Answer, Remark, Verdict, grade};
-pub use task::{Blank, Choice, Expected, Given, Number, Task, Telegram, letter};
+pub use task::{Blank, Checksum, Choice, Expected, Given, Number, Task, Telegram, letter};

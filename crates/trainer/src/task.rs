@@ -69,6 +69,17 @@ pub struct Telegram {
     pub request: Option<Vec<u8>>,
     /// The device, and how it is set up.
     pub options: Options,
+    pub checksum: Checksum,
+}
+
+/// Whose part the checksum of a telegram is that is to be made.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Checksum {
+    /// It is added where it was left away.
+    #[default]
+    Added,
+    /// It belongs to the answer.
+    Asked,
 }
 
 /// A number that is to be found out.
@@ -92,7 +103,14 @@ pub struct Number {
 
 impl Telegram {
     pub fn new(bytes: Vec<u8>, direction: Direction, protocol: &'static Protocol) -> Self {
-        Self { bytes, direction, protocol, request: None, options: Options::default() }
+        Self {
+            bytes,
+            direction,
+            protocol,
+            request: None,
+            options: Options::default(),
+            checksum: Checksum::Added,
+        }
     }
 
     /// The same for these bytes.

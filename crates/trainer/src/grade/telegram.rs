@@ -7,7 +7,7 @@ use buslens::tool::{Options, Verdict as Checked, decode};
 
 use super::slip::Slip;
 use super::{Remark, Verdict, small, the};
-use crate::task::Telegram;
+use crate::task::{Checksum, Telegram};
 
 pub fn grade(wanted: &Telegram, text: &str) -> Verdict {
     if text.trim().is_empty() {
@@ -49,6 +49,7 @@ fn unread(text: &str, bytes: &[u8]) -> Option<Message> {
 /// The bytes with their checksum, where they were typed without.
 fn completed(wanted: &Telegram, bytes: &[u8]) -> Vec<u8> {
     let algorithm = match wanted.protocol.key {
+        _ if wanted.checksum == Checksum::Asked => return bytes.to_vec(),
         "modbus-rtu" => CHECKS[0],
         "modbus-ascii" => CHECKS[1],
         _ => return bytes.to_vec(),
@@ -78,7 +79,9 @@ fn in_decimal(wanted: &Telegram, text: &str) -> Option<Remark> {
     let same = bytes.clone().eq(typed.iter().copied())
         || bytes.take(body).eq(typed.iter().copied())
         || values.map(|field| field.value.raw()).eq(typed.iter().copied().map(Some));
-    same.then(|| {
+    // Up to 9, both look the same.
+    let differs = typed.iter().any(|number| *number > 9);
+    (same && differs).then(|| {
         Remark::new("", message!("these are the right numbers as people count; a telegram is written in hex"))
     })
 }

@@ -9,7 +9,7 @@ use super::check::unknown;
 use super::{Mistake, Step, field, names};
 use crate::grade::{Answer, Remark, Verdict, grade};
 use crate::notation::{self, Notation};
-use crate::task::{Blank, Choice, Expected, Number, Task, Telegram};
+use crate::task::{Blank, Checksum, Choice, Expected, Number, Task, Telegram};
 
 /// Something to do.
 #[derive(Clone, Debug)]
@@ -35,9 +35,9 @@ pub enum Ask {
     /// Fields of a telegram that are blank.
     Blank { telegram: String, fields: Vec<String> },
     /// A telegram from nothing.
-    Build { telegram: String, checksum: Checksum },
+    Build { telegram: String },
     /// A damaged telegram that is to be made right.
-    Repair { damaged: String, telegram: String, checksum: Checksum },
+    Repair { damaged: String, telegram: String },
     /// Bits that are to be set.
     Bits { from: Vec<u8>, to: Vec<u8>, reading: Reading },
 }
@@ -52,18 +52,11 @@ pub enum Reading {
     Float,
 }
 
-/// Whose part the checksum of a telegram is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Checksum {
-    /// It is added where it was left away.
-    #[default]
-    Added,
-    /// It belongs to the answer.
-    Asked,
-}
-
 /// What separates a telegram from the request that it answers.
 const AFTER: &str = " after ";
+
+/// Behind a telegram whose checksum is asked for.
+const WITH_CHECKSUM: &str = " with checksum";
 
 /// How a number is to be written, where it matters.
 const NOTATIONS: [(&str, Notation); 2] = [(" in hex", Notation::Hex), (" in decimal", Notation::Decimal)];
@@ -87,26 +80,9 @@ impl Exercise {
                 wrong_with("", message!("{said}", said = step.filled_in(said)), None)
             }
             _ => match self.task(step) {
-                Some(task) => self.whole(&task, answer).unwrap_or_else(|| grade(&task, answer)),
+                Some(task) => grade(&task, answer),
                 None => Verdict::Unread(message!("there is no answer to this")),
             },
-        }
-    }
-
-    /// What there is to say where a checksum was asked for and everything but that is there.
-    fn whole(&self, task: &Task, answer: &Answer) -> Option<Verdict> {
-        let (Expected::Telegram(wanted), Answer::Text(text)) = (&task.expected, answer) else { return None };
-        let check = wanted.check().filter(|_| self.checksum() == Checksum::Asked)?;
-        let rest = wanted.bytes.get(..check.covered.to)?;
-        (steps::bytes(text) == rest)
-            .then(|| wrong_with("", message!("its checksum is missing, and here it is your part"), None))
-    }
-
-    /// Whose part the checksum is.
-    pub fn checksum(&self) -> Checksum {
-        match &self.ask {
-            Ask::Build { checksum, .. } | Ask::Repair { checksum, .. } => *checksum,
-            _ => Checksum::Added,
         }
     }
 
@@ -131,7 +107,7 @@ impl Exercise {
                 let blanks = self.blanks(step)?;
                 Expected::Blanks { telegram: known(telegram, &step.options())?, blanks }
             }
-            Ask::Build { telegram, .. } | Ask::Repair { telegram, .. } => {
+            Ask::Build { telegram } | Ask::Repair { telegram, .. } => {
                 Expected::Telegram(known(telegram, &step.options())?)
             }
             Ask::Point { .. } | Ask::Bits { .. } => return None,
@@ -148,7 +124,7 @@ impl Exercise {
     /// The telegram that is meant, where one is: with blanks, to build, or as it should be.
     pub fn telegram(&self, step: &Step) -> Option<Telegram> {
         match &self.ask {
-            Ask::Blank { telegram, .. } | Ask::Build { telegram, .. } | Ask::Repair { telegram, .. } => {
+            Ask::Blank { telegram, .. } | Ask::Build { telegram } | Ask::Repair { telegram, .. } => {
                 known(telegram, &step.options())
             }
             _ => None,
@@ -239,7 +215,7 @@ impl Exercise {
                 }
                 None => say(no_telegram(telegram)),
             },
-            Ask::Build { telegram, .. } | Ask::Repair { telegram, .. } => {
+            Ask::Build { telegram } | Ask::Repair { telegram, .. } => {
                 if known(telegram, &step.options()).is_none() {
                     say(no_telegram(telegram));
                 }
@@ -274,9 +250,11 @@ fn wrong_with(label: &str, text: field::Message, span: Option<Span>) -> Verdict 
 
 /// A telegram that is right, with the request that it stands after.
 fn known(text: &str, options: &Options) -> Option<Telegram> {
+    let checksum = if text.contains(WITH_CHECKSUM) { Checksum::Asked } else { Checksum::Added };
+    let text = text.replacen(WITH_CHECKSUM, "", 1);
     let lines = match text.split_once(AFTER) {
         Some((response, request)) => format!("{request}\n{response}"),
-        None => text.to_owned(),
+        None => text.clone(),
     };
     let report = decode(&lines, options.clone());
     let asked = usize::from(text.contains(AFTER));
@@ -288,6 +266,7 @@ fn known(text: &str, options: &Options) -> Option<Telegram> {
         protocol: telegram.choice.protocol,
         request: telegram.answers.map(|request| report.telegrams[request].line.bytes.clone()),
         options: options.clone(),
+        checksum,
     })
 }
 

@@ -14,8 +14,8 @@ use crate::views::learn::attempt::Attempt;
 use crate::views::learn::words::Words;
 use buslens::field::{Span, hex};
 use buslens::tool::steps::{CHECKS, bytes};
-use buslens_trainer::lesson::{Ask, Checksum, Exercise as Asked, Step};
-use buslens_trainer::{Answer, Telegram};
+use buslens_trainer::lesson::{Ask, Exercise as Asked, Step};
+use buslens_trainer::{Answer, Checksum, Telegram};
 
 #[component]
 pub fn Exercise(here: Here) -> impl IntoView {
@@ -84,11 +84,10 @@ pub fn Exercise(here: Here) -> impl IntoView {
 /// Where the answer is given.
 fn place_for(answering: Answering, step: &Step, exercise: &Asked) -> AnyView {
     let typed = |start: &str| {
-        let telegram = exercise.telegram(step);
-        let (start, added) = (start.to_owned(), exercise.checksum() == Checksum::Added);
+        let (telegram, start) = (exercise.telegram(step), start.to_owned());
         view! {
             <Typed answering start=start.clone() label="The bytes, in hex" />
-            {telegram.map(|telegram| view! { <Live answering telegram start added /> })}
+            {telegram.map(|telegram| view! { <Live answering telegram start /> })}
         }
         .into_any()
     };
@@ -126,15 +125,10 @@ fn place_for(answering: Answering, step: &Step, exercise: &Asked) -> AnyView {
 
 /// What the bytes are as far as they are typed.
 #[component]
-fn Live(
-    answering: Answering,
-    telegram: Telegram,
-    start: String,
-    /// The checksum is added where it is not typed.
-    added: bool,
-) -> impl IntoView {
+fn Live(answering: Answering, telegram: Telegram, start: String) -> impl IntoView {
     let lights = Lights::new();
     let check = telegram.check().filter(|check| check.covered.to + check.width == telegram.bytes.len());
+    let added = telegram.checksum == Checksum::Added;
     let typed = Memo::new(move |_| bytes(&answering.text().unwrap_or_else(|| start.clone())));
     // Its place is kept free until all before it is there.
     let checksum = Memo::new(move |_| {
