@@ -1,18 +1,20 @@
-//! `cargo bench --bench logs`: what reading whole logs costs, beside two other crates.
+//! `cargo bench --bench logs`: what reading whole logs costs, beside another crate, in processor time.
 //!
 //! A stream of 200,000 mixed telegrams: Buslens finds where each one begins and ends, checks it,
-//! meets requests with responses, counts, and keeps an index with all bytes. The other crates are
-//! told in advance which telegrams are requests and which responses, and keep nothing. rmodbus is
-//! asked for lengths alone, and for lengths with checks, which is the least that splitting needs.
+//! meets requests with responses, counts, and keeps an index. rmodbus is told in advance which
+//! telegrams are requests and which responses; it is asked for lengths and checks, which is the
+//! least that splitting needs, and keeps nothing. Then the text of each program that the tests know.
+//!
+//! All take turns, and the best round of each counts: what else runs on the machine is the same for all of them. A
+//! word behind `--` leaves out what has it not in its name.
 
-use std::fmt::Write as _;
+use std::fs;
 use std::hint::black_box;
+use std::time::{Duration, Instant};
 
-use buslens::field::{Direction, hex};
+use buslens::field::Direction;
 use buslens::tool::Options;
 use buslens::tool::log::{Input, Log, Reading, Role};
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use modbus_core::rtu;
 use rmodbus::client::ModbusRequest;
 use rmodbus::server::ModbusFrame;
 use rmodbus::{ErrorKind, ModbusProto, guess_request_frame_len, guess_response_frame_len};
@@ -20,19 +22,47 @@ use rmodbus::{ErrorKind, ModbusProto, guess_request_frame_len, guess_response_fr
 #[path = "../tests/logs/generator.rs"]
 #[allow(dead_code, reason = "the tests use the rest")]
 mod generator;
+#[path = "../tests/logs/programs.rs"]
+#[allow(dead_code, reason = "the tests use the rest")]
+mod programs;
 
-use generator::{Random, Sent, exchange_of};
+use generator::{Random, exchange_of, exchanges};
+use programs::{PROGRAMS, Program};
 
 const TELEGRAMS: usize = 200_000;
 
-/// Functions that all three know.
+/// Functions that both know.
 const FUNCTIONS: &[u8] = &[1, 2, 3, 3, 3, 4, 5, 6, 15, 16];
 
 const MOST_REGISTERS: usize = 16;
 
-fn telegrams() -> Vec<Sent> {
+fn main() {
+    let wanted = std::env::args().skip(1).find(|word| !word.starts_with("--"));
+    let wants = |name: &str| wanted.as_ref().is_none_or(|wanted| name.contains(wanted.as_str()));
+    if wants("stream") {
+        streams();
+    }
+    if wants("text") {
+        texts();
+    }
+}
+
+fn streams() {
+    const ROUNDS: usize = 40;
     let mut random = Random(2026);
-    (0..TELEGRAMS / 2).flat_map(|_| exchange_of(&mut random, FUNCTIONS, MOST_REGISTERS)).collect()
+    let sent = (0..TELEGRAMS / 2).flat_map(|_| exchange_of(&mut random, FUNCTIONS, MOST_REGISTERS));
+    let stream: Vec<u8> = sent.flat_map(|sent| sent.rtu()).collect();
+    let found = ours(&stream).entries().iter().filter(|entry| entry.role != Role::Discarded).count();
+    assert_eq!([found, with_rmodbus(&stream)], [TELEGRAMS; 2]);
+    let [ours, others] = in_turns(
+        ROUNDS,
+        [&mut || ours(black_box(&stream)).entries().len(), &mut || with_rmodbus(black_box(&stream))],
+    );
+    let speed = |time: Duration| TELEGRAMS as f64 / 1e6 / time.as_secs_f64();
+    println!("stream of {TELEGRAMS} telegrams, {} bytes:", stream.len());
+    println!("  buslens, split, checked, paired, indexed: {:.2} million a second", speed(ours));
+    println!("  rmodbus, split, checked: {:.2} million a second", speed(others));
+    println!("  buslens is {:.2} times as quick", others.as_secs_f64() / ours.as_secs_f64());
 }
 
 /// Buslens, from the raw bytes to the finished index.
@@ -41,23 +71,15 @@ fn ours(stream: &[u8]) -> Log {
     Log::read(stream, &reading, Options::default()).expect("a stream")
 }
 
-/// rmodbus, told that requests and responses take turns; `check` for each telegram found.
-fn with_rmodbus(stream: &[u8], mut check: impl FnMut(&[u8], bool)) -> usize {
+/// rmodbus, told that requests and responses take turns, with its checks of both, as a server and a client make them.
+fn with_rmodbus(stream: &[u8]) -> usize {
+    let mut answer: Vec<u8> = Vec::new();
     let (mut at, mut found) = (0, 0);
     while at < stream.len() {
         let asks = found % 2 == 0;
         let guess = if asks { guess_request_frame_len } else { guess_response_frame_len };
         let length = usize::from(guess(&stream[at..], ModbusProto::Rtu).expect("a telegram"));
-        check(&stream[at..at + length], asks);
-        (at, found) = (at + length, found + 1);
-    }
-    found
-}
-
-/// Its checks of a request and of a response, as a server and a client make them.
-fn check_with_rmodbus(stream: &[u8]) -> usize {
-    let mut answer: Vec<u8> = Vec::new();
-    with_rmodbus(stream, |telegram, asks| {
+        let telegram = &stream[at..at + length];
         if asks {
             let mut frame = ModbusFrame::new(telegram[0], telegram, ModbusProto::Rtu, &mut answer);
             frame.parse().expect("a right request");
@@ -66,117 +88,59 @@ fn check_with_rmodbus(stream: &[u8]) -> usize {
             let result = client.parse_ok(telegram);
             assert!(!matches!(result, Err(ErrorKind::FrameCRCError)), "a right response");
         }
-    })
-}
-
-/// modbus-core, told the same. It takes the byte count of functions 15 and 16 from the wrong place
-/// and loses these requests, and with them its turn: whoever is not found is looked for as the other.
-fn with_modbus_core(stream: &[u8]) -> usize {
-    use modbus_core::DecoderType::{Request, Response};
-    let (mut at, mut found, mut asks) = (0, 0, true);
-    while at < stream.len() {
-        let side = if asks { Request } else { Response };
-        if let Ok(Some((_, place))) = rtu::decode(side, &stream[at..]) {
-            (at, found) = (at + place.start + place.size, found + 1);
-        } else {
-            at += 1;
-        }
-        asks = !asks;
+        (at, found) = (at + length, found + 1);
     }
     found
 }
 
-fn streams(c: &mut Criterion) {
-    let stream: Vec<u8> = telegrams().iter().flat_map(Sent::rtu).collect();
-    let log = ours(&stream);
-    assert_eq!(log.entries().iter().filter(|entry| entry.role != Role::Discarded).count(), TELEGRAMS);
-    assert_eq!(with_rmodbus(&stream, |_, _| ()), TELEGRAMS);
-    assert_eq!(check_with_rmodbus(&stream), TELEGRAMS);
-    println!("modbus-core finds {} of {TELEGRAMS} telegrams", with_modbus_core(&stream));
-    let mut group = c.benchmark_group("a stream of 200,000 telegrams");
-    group.sample_size(20).throughput(Throughput::Elements(TELEGRAMS as u64));
-    group.bench_function("buslens: split, checked, paired, indexed", |b| b.iter(|| ours(black_box(&stream))));
-    group.bench_function("rmodbus: split", |b| {
-        b.iter(|| with_rmodbus(black_box(&stream), |telegram, _| _ = black_box(telegram)));
-    });
-    group.bench_function("rmodbus: split, checked", |b| b.iter(|| check_with_rmodbus(black_box(&stream))));
-    group.bench_function("modbus-core: split, checked", |b| b.iter(|| with_modbus_core(black_box(&stream))));
-    group.finish();
-}
-
-/// How programs write a telegram into their log.
-type Layout = (&'static str, fn(&mut String, usize, &Sent));
-
-static LAYOUTS: &[Layout] = &[
-    ("a time, a word, bytes", |text, n, sent| {
-        line(text, format_args!("{} {}: {}", time(n), side(sent), hex(&sent.rtu())));
-    }),
-    ("brackets and dots", |text, n, sent| {
-        let bytes = joined(&sent.rtu(), ".", |byte| format!("{byte:02X}"));
-        line(text, format_args!("[{}][V][modbus:199]: Modbus {}: {bytes}", time(n), side(sent)));
-    }),
-    ("counters", |text, n, sent| {
-        line(text, format_args!("{n:06}-{}:{}", side(sent), hex(&sent.rtu())));
-    }),
-    ("a byte in brackets each", |text, _, sent| {
-        let bytes = sent.rtu();
-        let [open, close] = if sent.direction == Direction::Request { ["[", "]"] } else { ["<", ">"] };
-        line(
-            text,
-            format_args!(
-                "{open}{}{close}",
-                joined(&bytes, &format!("{close}{open}"), |b| format!("{b:02X}"))
-            ),
-        );
-    }),
-    ("numbers with a prefix", |text, n, sent| {
-        let bytes = joined(&sent.rtu(), " ", |byte| format!("{byte:#x}"));
-        line(text, format_args!("2026-03-02 {} DEBUG transaction {}: {bytes}", time(n), side(sent)));
-    }),
-    ("decimal numbers", |text, _, sent| {
-        line(text, format_args!("{}: {}", side(sent), joined(&sent.rtu(), ", ", |byte| byte.to_string())));
-    }),
-    ("digits without blanks", |text, n, sent| {
-        line(
-            text,
-            format_args!("{} {} {}", time(n), side(sent), joined(&sent.rtu(), "", |b| format!("{b:02x}"))),
-        );
-    }),
-];
-
-fn line(text: &mut String, line: std::fmt::Arguments<'_>) {
-    writeln!(text, "{line}").expect("a string takes all");
-}
-
-fn side(sent: &Sent) -> &'static str {
-    if sent.direction == Direction::Request { "TX" } else { "RX" }
-}
-
-/// Of a day, a telegram each 400 ms.
-fn time(n: usize) -> String {
-    let (second, milli) = (n * 2 / 5, n * 400 % 1000);
-    format!("{:02}:{:02}:{:02}.{milli:03}", second / 3600, second / 60 % 60, second % 60)
-}
-
-fn joined(bytes: &[u8], between: &str, write: fn(u8) -> String) -> String {
-    bytes.iter().map(|byte| write(*byte)).collect::<Vec<_>>().join(between)
-}
-
-fn texts(c: &mut Criterion) {
-    let read = |text: &[u8]| Log::read(text, &Reading::default(), Options::default()).expect("a log");
-    let sent = telegrams();
-    let mut group = c.benchmark_group("a log of 200,000 lines");
-    group.sample_size(10);
-    for (name, write) in LAYOUTS {
-        let mut text = String::new();
-        sent.iter().enumerate().for_each(|(n, sent)| write(&mut text, n, sent));
-        let telegrams = read(text.as_bytes()).entries().iter().filter(|entry| entry.counts()).count();
-        assert!(telegrams.abs_diff(TELEGRAMS) * 1000 < TELEGRAMS, "{name}: {telegrams} of {TELEGRAMS}");
-        group.throughput(Throughput::Bytes(text.len() as u64));
-        group.bench_function(*name, |b| b.iter(|| read(black_box(text.as_bytes()))));
+fn texts() {
+    const ROUNDS: usize = 5;
+    let texts: Vec<String> = PROGRAMS.iter().map(text).collect();
+    let read = |text: &str| {
+        Log::read(text.as_bytes(), &Reading::default(), Options::default()).expect("a log").entries().len()
+    };
+    let mut each: Vec<f64> = Vec::new();
+    println!("texts of {} programs, in nanoseconds a byte; the beginning of each:", texts.len());
+    for text in &texts {
+        let [time] = in_turns(ROUNDS, [&mut || read(black_box(text))]);
+        let cost = time.as_nanos() as f64 / text.len() as f64;
+        let beginning: String = text.lines().next().unwrap_or_default().chars().take(80).collect();
+        println!("  {cost:5.1}  {beginning}");
+        each.push(cost);
     }
-    group.finish();
+    each.sort_by(f64::total_cmp);
+    let mean = each.iter().sum::<f64>() / each.len() as f64;
+    println!("  {mean:.1} in the mean, {:.1} in the middle", each[each.len() / 2]);
 }
 
-criterion_group!(benches, streams, texts);
-criterion_main!(benches);
+/// 40,000 telegrams as a program writes them.
+fn text(program: &Program) -> String {
+    const EXCHANGES: usize = 20_000;
+    let mut text = String::new();
+    for (n, sent) in exchanges(2026, EXCHANGES).iter().enumerate() {
+        let asks = sent.direction == Direction::Request;
+        (program.write)(&mut text, &(program.frame)(sent, n), asks, n);
+    }
+    text
+}
+
+/// The time of the processor that each work takes, at its best of some rounds in turns.
+fn in_turns<const N: usize>(rounds: usize, mut works: [&mut dyn FnMut() -> usize; N]) -> [Duration; N] {
+    let began = Instant::now();
+    let mut best = [Duration::MAX; N];
+    for _ in 0..rounds {
+        for (best, work) in best.iter_mut().zip(&mut works) {
+            let start = time(began);
+            black_box(work());
+            *best = (time(began) - start).min(*best);
+        }
+    }
+    best
+}
+
+/// The time of the processor that this thread took, where the system tells it; else the time since `began`.
+fn time(began: Instant) -> Duration {
+    let told = fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let nanoseconds = told.and_then(|told| told.split_whitespace().next()?.parse().ok());
+    nanoseconds.map_or_else(|| began.elapsed(), Duration::from_nanos)
+}

@@ -4,7 +4,6 @@ mod editor;
 mod examples;
 mod log;
 mod log_view;
-mod open_file;
 mod pictures;
 mod reading;
 mod start;
@@ -15,11 +14,11 @@ mod times;
 use leptos::ev;
 use leptos::prelude::*;
 
-use crate::browser::typing::is_typed_into;
+use crate::browser::typing::{find_focus, is_typed_into};
 use crate::components::icon::{Glyph, Icon};
+use crate::components::open_file::OpenFile;
 use crate::later::{CouldNotLoad, Later, LaterPiece, Part, Piece};
 use editor::Editor;
-use open_file::OpenFile;
 use reading::ReadAs;
 use start::Welcome;
 use telegrams::Telegrams;
@@ -44,6 +43,14 @@ pub fn Read() -> impl IntoView {
         }
     });
     on_cleanup(move || pasted.remove());
+    // A change of what is shown takes away the control that made it.
+    Effect::new(move |before: Option<_>| {
+        let mode = read.mode();
+        if before.is_some_and(|before| before != mode) {
+            request_animation_frame(find_focus);
+        }
+        mode
+    });
     let has_editor = Memo::new(move |_| read.mode() != Mode::Log || read.editing.get());
     let starts = Memo::new(move |_| read.mode() == Mode::Start);
     let is_empty = Memo::new(move |_| read.report().telegrams.is_empty());
@@ -106,7 +113,7 @@ fn Input() -> impl IntoView {
                 <LaterPiece piece=Piece::ReadingChoices />
                 <div class="acts">
                     <LaterPiece piece=Piece::Examples />
-                    <OpenFile label="Open file" class="low" />
+                    <OpenFile label="Open file" class="low" on_open=read.opener() />
                     <Show when=move || read.mode() != Mode::Start>
                         <button type="button" class="button plain low" on:click=move |_| read.clear()>
                             <Icon glyph=Glyph::Close />

@@ -23,7 +23,7 @@ pub(super) struct Rule {
     /// The bits that are 0 in numbers of whole units.
     part: u8,
     /// The rule, if it is none of the usual kinds.
-    unusual: Option<Length>,
+    unusual: Option<&'static Length>,
 }
 
 /// How long a response is, by its request.
@@ -42,8 +42,8 @@ impl Rules {
             .map(|direction| Pdu::kind(function, direction, dialect));
         let known = request.function == function && response.function == function && function > 0;
         known.then(|| Self {
-            request: Rule::of(request.length),
-            response: Rule::of(response.length),
+            request: Rule::of(&request.length),
+            response: Rule::of(&response.length),
             answer: Answer::of(request.length, response.length),
         })
     }
@@ -68,7 +68,7 @@ impl Rules {
 }
 
 impl Rule {
-    fn of(length: Length) -> Self {
+    fn of(length: &'static Length) -> Self {
         let rule = |base: usize, at: usize, counts: u8, part: usize| Self {
             base: base as u8,
             at: at as u8,
@@ -76,10 +76,10 @@ impl Rule {
             part: part as u8,
             unusual: None,
         };
-        match length {
+        match *length {
             Length::Fixed(base) => rule(base, 0, 0, 0),
             Length::Counted { at, unit } if unit.is_power_of_two() => rule(at + 1, at, 0xFF, unit - 1),
-            length => Self { unusual: Some(length), ..rule(0, 0, 0, 0) },
+            _ => Self { unusual: Some(length), ..rule(0, 0, 0, 0) },
         }
     }
 
@@ -145,7 +145,7 @@ mod tests {
                 *byte = if mixed & 0x100 == 0 { mixed as u8 & 15 } else { mixed as u8 };
             }
             let pdu = &bytes[..1 + seed as usize % 40];
-            for length in [
+            for length in &[
                 Length::Fixed(5),
                 Length::Counted { at: 1, unit: 1 },
                 Length::Counted { at: 5, unit: 4 },

@@ -34,6 +34,43 @@ pub struct Waiting {
     pub length: Option<u16>,
 }
 
+impl Waiting {
+    /// What is waited for behind a telegram of a serial line, or one like it, of which its `function` and [`told`] say
+    /// this.
+    ///
+    /// [`told`]: Splitter::told
+    #[inline]
+    pub fn behind(before: Option<&Self>, unit: u8, function: u8, told: Option<Told>) -> Option<Self> {
+        let function = function & !EXCEPTION;
+        let Some(Told { sides: [asks, answers], answer }) = told else {
+            // Of a function that is not known, nothing tells whether it asks.
+            return Some(Self { unit, function, length: None });
+        };
+        let awaited = before.is_some_and(|it| (it.unit, it.function) == (unit, function));
+        let length = answer.map(|length| (length + AROUND) as u16);
+        (asks && !(answers && awaited)).then_some(Self { unit, function, length })
+    }
+}
+
+/// What a PDU says whose function is known.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Told {
+    /// See [`Splitter::sides`].
+    pub sides: [bool; 2],
+    /// See [`Splitter::answer_length`].
+    pub answer: Option<usize>,
+}
+
+/// A frame of a stream, and what it says.
+#[derive(Clone, Copy, Debug)]
+pub struct Framed {
+    pub length: u16,
+    pub unit: u8,
+    pub function: u8,
+    /// See [`Splitter::sides`].
+    pub sides: [bool; 2],
+}
+
 /// What each function's telegrams are long.
 #[derive(Debug)]
 pub struct Splitter {
@@ -50,7 +87,7 @@ pub struct Place<'a> {
     pub last: bool,
     /// A telegram ends just before it, or a pause.
     pub in_step: bool,
-    pub waiting: Option<Waiting>,
+    pub waiting: Option<&'a Waiting>,
 }
 
 /// Whether the protocol's telegrams can be found in a stream.
@@ -155,6 +192,45 @@ impl Splitter {
         })
     }
 
+    /// What a PDU says, if its function is known.
+    #[inline]
+    pub fn told(&self, pdu: &[u8]) -> Option<Told> {
+        let function = *pdu.first()?;
+        let rules = self.rule(function & !EXCEPTION)?;
+        Some(match function & EXCEPTION {
+            0 => Told {
+                sides: [rules.request.fits(pdu), rules.response.fits(pdu)],
+                answer: rules.answer_length(pdu),
+            },
+            _ => Told { sides: [false, pdu.len() == 2], answer: None },
+        })
+    }
+
+    /// Finds the RTU frames that follow each other from the beginning of `bytes` on, as [`begins`](Self::begins) does
+    /// one by one; returns how many bytes they have. `waiting` is what is waited for, before them and behind.
+    pub fn run(
+        &self,
+        bytes: &[u8],
+        last: bool,
+        waiting: &mut Option<Waiting>,
+        found: &mut Vec<Framed>,
+    ) -> usize {
+        let (mut at, mut awaited) = (0, *waiting);
+        loop {
+            let place = Place { bytes: &bytes[at..], last, in_step: true, waiting: awaited.as_ref() };
+            let Begins::Telegram(length) = self.rtu(place) else { break };
+            let telegram = &bytes[at..at + length];
+            let (unit, function) = (telegram[0], telegram[1]);
+            let told = self.told(&telegram[1..length - 2]);
+            awaited = Waiting::behind(awaited.as_ref(), unit, function, told);
+            let sides = told.unwrap_or_default().sides;
+            found.push(Framed { length: length as u16, unit, function, sides });
+            at += length;
+        }
+        *waiting = awaited;
+        at
+    }
+
     #[inline]
     fn rule(&self, function: u8) -> Option<&Rules> {
         self.rules.get(usize::from(function))?.as_ref()
@@ -171,43 +247,34 @@ impl Splitter {
             return Begins::Nothing;
         }
         let awaited = waiting.filter(|it| it.unit == unit && it.function == function & !EXCEPTION);
+        let Some(rules) = self.rule(function & !EXCEPTION) else { return Begins::Nothing };
         if function & EXCEPTION != 0 {
-            return match self.rule(function & !EXCEPTION) {
-                Some(_) if unit != BROADCAST || awaited.is_some() => {
-                    right(bytes, Some(2 + AROUND), None, more)
-                }
-                _ => Begins::Nothing,
+            return match unit {
+                BROADCAST if awaited.is_none() => Begins::Nothing,
+                _ => right(bytes, Some(2 + AROUND), None, more),
             };
         }
-        let Some(rules) = self.rule(function) else { return Begins::Nothing };
         let Rules { request, response, .. } = rules;
         let pdu = &bytes[1..];
         let whole = |rule: &Rule| rule.length(pdu).map(|length| length + AROUND);
         let (asks, answers) = (whole(request), whole(response).filter(|_| unit != BROADCAST));
-        let asked = || right(bytes, asks, Some(request), more);
-        let answered = || right(bytes, answers, Some(response), more);
-        let fits = |awaited: Waiting| {
-            answers.is_some_and(|it| awaited.length.is_none_or(|length| usize::from(length) == it))
-        };
         if awaited.is_some() && answers.is_none() && !last && is_to_be_told(response, bytes) {
             return more;
         }
-        if awaited.is_some_and(fits) {
-            // No telegram is longer than the one that is awaited, and none has another length.
-            return match answered() {
-                Begins::Nothing => asked(),
-                begins => begins,
-            };
-        }
-        match asked() {
-            Begins::Nothing => answered(),
+        // No telegram is longer than the one that is awaited, and none has another length.
+        let answers_first = awaited.is_some_and(|awaited| {
+            answers.is_some_and(|it| awaited.length.is_none_or(|length| usize::from(length) == it))
+        });
+        let (asked, answered) = ((asks, request), (answers, response));
+        let [first, other] = if answers_first { [answered, asked] } else { [asked, answered] };
+        let begins = right(bytes, first.0, Some(first.1), more);
+        let doubtful = match begins {
+            Begins::Nothing => true,
             // Nobody asks for what no response can hold, if it can be a response itself.
-            Begins::Telegram(_) if asks != answers && !rules.can_be_answered(pdu) => match answered() {
-                Begins::Nothing => asked(),
-                begins => begins,
-            },
-            begins => begins,
-        }
+            Begins::Telegram(_) => !answers_first && asks != answers && !rules.can_be_answered(pdu),
+            Begins::More => false,
+        };
+        if doubtful { otherwise(bytes, other, more, begins) } else { begins }
     }
 
     #[inline]
@@ -277,6 +344,15 @@ fn is_to_be_told(rule: &Rule, bytes: &[u8]) -> bool {
     bytes.len() < modbus_rtu::RTU.longest() && rule.can_be_told(&bytes[1..])
 }
 
+/// What begins with `bytes` by the length and the rule of the other side, if that is anything.
+#[cold]
+fn otherwise(bytes: &[u8], (length, rule): (Option<usize>, &Rule), more: Begins, begins: Begins) -> Begins {
+    match right(bytes, length, Some(rule), more) {
+        Begins::Nothing => begins,
+        other => other,
+    }
+}
+
 /// Whether a frame of `length` begins `bytes` whose PDU is of the length `rule` and whose check is
 /// right.
 #[inline]
@@ -305,7 +381,7 @@ mod tests {
     const REQUEST: &[u8] = &[1, 3, 0, 200, 0, 3, 0x84, 0x35];
 
     fn begins(bytes: &[u8], waiting: Option<Waiting>) -> Begins {
-        let place = Place { bytes, last: true, in_step: true, waiting };
+        let place = Place { bytes, last: true, in_step: true, waiting: waiting.as_ref() };
         Splitter::new(&STANDARD).begins(&modbus_rtu::PROTOCOL, place)
     }
 

@@ -41,15 +41,27 @@ static CRC: Crc<u16, Table<1>> = Crc::<u16, Table<1>>::new(&MODBUS);
 #[inline]
 pub fn crc_residue(frame: &[u8]) -> u16 {
     let tables = &*BLOCK_TABLES;
-    let (blocks, rest) = frame.as_chunks::<BLOCK>();
-    let crc = blocks.iter().fold(u16::MAX, |crc, block| {
-        let [low, high] = crc.to_le_bytes();
-        let [first, second, others @ ..] = block;
-        let crc = tables[0][usize::from(first ^ low)] ^ tables[1][usize::from(second ^ high)];
-        let others = others.iter().zip(&tables[2..]);
-        others.fold(crc, |crc, (byte, table)| crc ^ table[usize::from(*byte)])
-    });
-    rest.iter().fold(crc, |crc, byte| crc_step(crc, *byte))
+    let Some(first) = frame.first_chunk::<BLOCK>() else {
+        return frame.iter().fold(u16::MAX, |crc, byte| crc_step(crc, *byte));
+    };
+    // The first block is the odd bytes at the beginning, behind as many zeros as it takes: before the first byte,
+    // they change nothing. The start is a part of the first two bytes.
+    let odd = (frame.len() - 1) % BLOCK + 1;
+    let began = u64::from_le_bytes(*first) ^ u64::from(u16::MAX);
+    let began = (began << (8 * (BLOCK - odd))).to_le_bytes();
+    // Of one byte alone, half of the start is still to come.
+    let crc = block_crc(tables, &began) ^ if odd == 1 { 0x00FF } else { 0 };
+    let (blocks, _) = frame[odd..].as_chunks::<BLOCK>();
+    blocks.iter().fold(crc, |crc, block| {
+        let block = u64::from_le_bytes(*block) ^ u64::from(crc);
+        block_crc(tables, &block.to_le_bytes())
+    })
+}
+
+/// What a block adds to the CRC behind it.
+#[inline]
+fn block_crc(tables: &[[u16; 256]; BLOCK], block: &[u8; BLOCK]) -> u16 {
+    block.iter().zip(tables).fold(0, |crc, (byte, table)| crc ^ table[usize::from(*byte)])
 }
 
 /// The CRC behind one more byte.

@@ -6,3 +6,4 @@ mod flow;
 mod generator;
 mod layouts;
 mod noise;
+mod programs;

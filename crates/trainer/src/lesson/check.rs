@@ -23,7 +23,7 @@ fn say(found: &mut Vec<Mistake>, line: usize, said: impl Into<String>) {
 }
 
 impl Step {
-    fn check(&self, found: &mut Vec<Mistake>) {
+    pub(crate) fn check(&self, found: &mut Vec<Mistake>) {
         let report = self.report();
         if report.telegrams.len() != self.telegrams.len() {
             // Which one it is tells best who reads each by itself.
@@ -103,6 +103,11 @@ impl Step {
             Some(name) => Err(name),
             None => Ok(text.to_owned()),
         }
+    }
+
+    /// The same; what is not known stays as it is.
+    pub fn filled_in(&self, text: &str) -> String {
+        self.filled(text, &self.report()).unwrap_or_else(|_| text.to_owned())
     }
 
     /// The same for a remark on telegram `index`, of which `own` is the field. What is not known stays as it is.

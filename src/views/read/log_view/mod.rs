@@ -13,10 +13,11 @@ use leptos::prelude::*;
 
 use super::ReadState;
 use super::log::Stage;
-use super::open_file::OpenFile;
 use super::times::stretch;
+use crate::browser::typing::go_to_field;
 use crate::components::icon::{Glyph, Icon};
 use crate::components::menu::{Menu, MenuItem, MenuLink};
+use crate::components::open_file::OpenFile;
 use crate::views::outgoing::{PassOn, Summary};
 use crate::worker::messages::{Export, Request};
 use buslens::field::many;
@@ -85,7 +86,13 @@ fn FileBar() -> impl IntoView {
         log.ask(Request::Digest);
         summary.set(true);
     };
-    let has_text = move || read.is_text() && !read.editing.get();
+    let edit = move |_| {
+        read.editing.update(|editing| *editing = !*editing);
+        if read.editing.get_untracked() {
+            request_animation_frame(go_to_field);
+        }
+    };
+    let edit_label = move || if read.editing.get() { "Hide text" } else { "Edit text" };
     view! {
         <section class="file-bar" aria-label="File">
             <Icon glyph=Glyph::File />
@@ -94,22 +101,23 @@ fn FileBar() -> impl IntoView {
                 {about}
             </span>
             <div class="acts">
-                <Show when=has_text>
-                    <button type="button" class="button plain" on:click=move |_| read.editing.set(true)>
+                <Show when=move || read.is_text()>
+                    <button type="button" class="button plain" on:click=edit>
                         <Icon glyph=Glyph::Edit />
-                        "Edit text"
+                        {edit_label}
                     </button>
                 </Show>
                 <button type="button" class="button plain" on:click=move |_| read.clear()>
                     <Icon glyph=Glyph::Close />
                     "Close"
                 </button>
-                <OpenFile label="Open another" class="plain" />
+                <OpenFile label="Open another" class="plain" on_open=read.opener() />
                 <Tools />
                 <Menu label="Export" glyph=Glyph::Save at_end=true>
                     {Export::FILES.map(export).into_iter().collect_view()}
                     <MenuItem on_choose=Callback::new(move |()| pass_on.set(true))>"A log to pass on"</MenuItem>
                     <MenuLink href="#/sheet">"A report to print"</MenuLink>
+                    <MenuLink href="#/learn?place=practice.read">"A task for learners"</MenuLink>
                 </Menu>
                 <button type="button" class="button main" on:click=sum_up>
                     <Icon glyph=Glyph::Mail />

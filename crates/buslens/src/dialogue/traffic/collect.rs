@@ -8,8 +8,8 @@ use super::lane::{Carries, Lane, PAUSE, Row};
 use super::pieces::Found;
 use super::settle::Lines;
 use crate::field::{Direction, Facts};
-use crate::frame::split::{Splitter, Waiting, can_split};
-use crate::frame::{Protocol, Settings, Verdict, modbus_rtu};
+use crate::frame::split::{Framed, Splitter, Told, Waiting, can_split};
+use crate::frame::{Protocol, Settings, Speaker, Verdict, modbus_rtu};
 use crate::modbus::EXCEPTION;
 use crate::walk::crc_residue;
 
@@ -102,6 +102,8 @@ pub struct Traffic {
     pub(super) latest_piece: Latest,
     /// The telegrams of the last piece: a place to work in, so that pieces do not allocate.
     pub(super) found: Vec<Found>,
+    /// The same for the frames of a stream.
+    pub(super) framed: Vec<Framed>,
     /// How many bytes the columns of a text had.
     pub(super) in_columns: usize,
     /// What other protocols were seen, by their place in [`FOREIGN`](crate::dialogue::foreign::FOREIGN).
@@ -171,6 +173,7 @@ impl Traffic {
             gone: Vec::new(),
             latest_piece: Latest::default(),
             found: Vec::new(),
+            framed: Vec::new(),
             in_columns: 0,
             foreign_protocols: [0; crate::dialogue::foreign::FOREIGN.len()],
         }
@@ -427,48 +430,86 @@ impl Traffic {
         verdict: Verdict,
         role: Role,
     ) {
+        let row = self.lanes[index].row(from);
+        let (port, hint) = (row.port, row.hint);
+        let said = match role {
+            Role::Plain if self.room > 0 => self.describe(port, hint, bytes, protocol, verdict),
+            _ => Said::default(),
+        };
+        self.enter(index, bytes, from, kept, number(protocol), verdict, role, said);
+    }
+
+    /// Adds the RTU frames of a stream that `bytes` begin with, one behind the other.
+    pub(super) fn push_all(
+        &mut self,
+        index: usize,
+        mut bytes: &[u8],
+        mut from: usize,
+        mut kept: usize,
+        found: &[Framed],
+    ) {
+        let protocol = number(&modbus_rtu::PROTOCOL);
+        for Framed { length, unit, function, sides } in found {
+            let (own, rest) = bytes.split_at(usize::from(*length));
+            self.see(*unit, *function);
+            let said = Said { unit: Some(*unit), function: *function, sides: *sides };
+            self.enter(index, own, from, kept, protocol, Verdict::Right, Role::Plain, said);
+            (from, kept, bytes) = (from + own.len(), kept + own.len(), rest);
+        }
+    }
+
+    #[inline]
+    #[expect(clippy::too_many_arguments, reason = "all of them are the entry's")]
+    fn enter(
+        &mut self,
+        index: usize,
+        bytes: &[u8],
+        from: usize,
+        kept: usize,
+        protocol: u8,
+        verdict: Verdict,
+        role: Role,
+        said: Said,
+    ) {
         if self.room == 0 {
             return;
         }
         self.room -= 1;
         let row = self.lanes[index].row(from);
-        let mut entry = Entry {
+        let skip = from as isize - row.from;
+        let (offset, skip) = match row.line {
+            // Of a stream, the place itself is known.
+            0 => (row.offset.wrapping_add_signed(skip as i64), 0),
+            _ => (row.offset, skip.clamp(0, isize::from(i16::MAX)) as u16),
+        };
+        let (hint, sides) = match self.direction {
+            Some(direction) if role == Role::Plain => (Hint::Says(direction), sides_of(direction)),
+            _ => (row.hint, said.sides),
+        };
+        self.entries.push(Entry {
             time: row.time,
             at: kept as u64,
-            offset: row.offset,
+            offset,
             written: self.written(index, row, from, bytes),
             line: row.line,
-            skip: (from as isize - row.from).clamp(0, isize::from(i16::MAX)) as u16,
+            skip,
             length: bytes.len() as u16,
             partner: NOBODY,
             port: row.port,
-            protocol: number(protocol),
-            unit: None,
-            function: 0,
+            protocol,
+            unit: said.unit,
+            function: said.function,
             verdict,
             direction: Direction::Request,
             role,
-            sides: [false; 2],
-            hint: row.hint,
-        };
-        if row.line == 0 {
-            // Of a stream, the place itself is known.
-            entry.offset = row.offset.wrapping_add_signed((from as isize - row.from) as i64);
-            entry.skip = 0;
-        }
-        if role == Role::Plain {
-            self.describe(&mut entry, bytes, protocol);
-            if let Some(direction) = self.direction {
-                entry.sides = [direction == Direction::Request, direction == Direction::Response];
-                entry.hint = Hint::Says(direction);
-            }
-        }
-        self.entries.push(entry);
+            sides,
+            hint,
+        });
     }
 
     /// How `bytes`, which lie at `from` in their lane, stand in the file, if they can be read again from there.
     #[inline]
-    fn written(&self, index: usize, row: Row, from: usize, bytes: &[u8]) -> Option<Written> {
+    fn written(&self, index: usize, row: &Row, from: usize, bytes: &[u8]) -> Option<Written> {
         let written = row.written.filter(|_| self.in_file)?;
         if row.line == 0 {
             return Some(written);
@@ -489,83 +530,82 @@ impl Traffic {
         protocol: &'static Protocol,
         verdict: Verdict,
     ) {
-        let mut entry = self.entries[index];
+        let (port, hint) = (self.entries[index].port, self.entries[index].hint);
+        let said = self.describe(port, hint, bytes, protocol, verdict);
+        let entry = &mut self.entries[index];
         entry.set_protocol(protocol);
-        (entry.verdict, entry.unit, entry.function, entry.sides) = (verdict, None, 0, [false; 2]);
-        self.describe(&mut entry, bytes, protocol);
-        self.entries[index] = entry;
+        entry.verdict = verdict;
+        (entry.unit, entry.function, entry.sides) = (said.unit, said.function, said.sides);
     }
 
     /// Unit, function, and what its length says; and whether it is now waited for a response.
     #[inline]
-    fn describe(&mut self, entry: &mut Entry, bytes: &[u8], protocol: &'static Protocol) {
+    fn describe(
+        &mut self,
+        port: u16,
+        hint: Hint,
+        bytes: &[u8],
+        protocol: &'static Protocol,
+        verdict: Verdict,
+    ) -> Said {
         let serial = protocol.is(&modbus_rtu::PROTOCOL);
-        let pdu = if serial {
-            entry.unit = bytes.first().copied();
-            bytes.get(1..bytes.len().saturating_sub(2).max(1)).unwrap_or_default()
+        let (unit, (pdu, around)) = if serial {
+            let pdu = bytes.get(1..bytes.len().saturating_sub(2).max(1)).unwrap_or_default();
+            (bytes.first().copied(), (pdu, modbus_rtu::RTU.around()))
         } else {
-            entry.unit = (protocol.unit)(bytes);
+            let unit = (protocol.unit)(bytes);
+            let said = |sides| Said { unit, function: 0, sides };
             match protocol.speaker {
-                crate::frame::Speaker::Pdu(inside) => inside(bytes).0,
-                crate::frame::Speaker::Frame(told) => {
-                    match told(bytes) {
-                        Some(Direction::Request) => entry.sides = [true, false],
-                        Some(Direction::Response) => entry.sides = [false, true],
-                        None => {}
-                    }
-                    return;
-                }
-                crate::frame::Speaker::Always(direction) => {
-                    entry.sides = [direction == Direction::Request, direction == Direction::Response];
-                    return;
-                }
-                crate::frame::Speaker::Turns(leaning) => {
+                Speaker::Pdu(inside) => (unit, inside(bytes)),
+                Speaker::Frame(told) => return said(told(bytes).map_or([false; 2], sides_of)),
+                Speaker::Always(direction) => return said(sides_of(direction)),
+                Speaker::Turns(leaning) => {
                     self.turns = true;
                     let leaning = leaning(bytes);
-                    entry.sides = [leaning <= 0, leaning >= 0];
-                    return;
+                    return said([leaning <= 0, leaning >= 0]);
                 }
             }
         };
-        let Some(function) = pdu.first().copied() else { return };
-        entry.function = function;
-        entry.sides = self.splitter.sides(pdu);
-        if entry.sides == [false; 2] && self.splitter.knows(function) && entry.hint == Hint::None {
+        let Some(function) = pdu.first().copied() else { return Said { unit, ..Said::default() } };
+        let told = self.splitter.told(pdu);
+        let mut sides = told.unwrap_or_default().sides;
+        if sides == [false; 2] && told.is_some() && hint == Hint::None {
             // The direction whose length it misses by less.
-            let (_, around) = match protocol.speaker {
-                crate::frame::Speaker::Pdu(inside) => inside(bytes),
-                _ => return,
-            };
-            let waiting = self.waiting[usize::from(entry.port)];
-            let awaited = waiting.is_some_and(|it| Some(it.unit) == entry.unit && it.function == function);
+            let waiting = self.waiting[usize::from(port)];
+            let awaited = waiting.is_some_and(|it| Some(it.unit) == unit && it.function == function);
             let nearer = crate::dialogue::direction(pdu, around, awaited, self.settings.dialect);
-            if let Some(direction) = nearer.told() {
-                entry.sides = [direction == Direction::Request, direction == Direction::Response];
-            }
+            sides = nearer.told().map_or([false; 2], sides_of);
         }
-        if entry.verdict == Verdict::Wrong {
-            return;
+        if verdict != Verdict::Wrong {
+            let unit = unit.unwrap_or_default();
+            self.see(unit, function);
+            let waiting = &mut self.waiting[usize::from(port)];
+            let told = told.map(|told| Told { sides, ..told });
+            *waiting = Waiting::behind(waiting.as_ref(), unit, function, told);
         }
-        let (unit, plain) = (entry.unit.unwrap_or_default(), function & !EXCEPTION);
-        self.seen[usize::from(unit) * 2 + usize::from(plain >> 6)] |= 1 << (plain & 63);
-        let waiting = &mut self.waiting[usize::from(entry.port)];
-        let awaited = waiting.is_some_and(|it| (it.unit, it.function) == (unit, plain));
-        *waiting = match entry.sides {
-            // Of a function that is not known, nothing tells whether it asks.
-            [false, false] if !self.splitter.knows(function) => {
-                Some(Waiting { unit, function: plain, length: None })
-            }
-            [true, answers] if !(answers && awaited) => Some(Waiting {
-                unit,
-                function: plain,
-                length: self
-                    .splitter
-                    .answer_length(pdu)
-                    .map(|length| (length + modbus_rtu::RTU.around()) as u16),
-            }),
-            _ => None,
-        };
+        Said { unit, function, sides }
     }
+
+    /// A unit has a function.
+    #[inline]
+    fn see(&mut self, unit: u8, function: u8) {
+        let plain = function & !EXCEPTION;
+        self.seen[usize::from(unit) * 2 + usize::from(plain >> 6)] |= 1 << (plain & 63);
+    }
+}
+
+/// What a telegram says of itself.
+#[derive(Clone, Copy, Default)]
+struct Said {
+    unit: Option<u8>,
+    /// 0 where the protocol has none.
+    function: u8,
+    /// Which sides it can be of: request, response.
+    sides: [bool; 2],
+}
+
+fn sides_of(direction: Direction) -> [bool; 2] {
+    [direction == Direction::Request, direction == Direction::Response]
 }
 
 /// Keeps bytes; returns where.

@@ -217,9 +217,8 @@ impl Port {
         let (entry, own) = window.get(index);
         let (entry, protocol) = (*entry, entry.protocol());
         let is_same = |other: &usize| alike(window.get(*other).1, own);
-        let same = self.previous.filter(is_same);
         if habits.twice
-            && let Some((before, _)) = same.map(|before| window.get(before))
+            && let Some((before, _)) = self.previous.filter(is_same).map(|before| window.get(before))
             && before.role != Role::Copy
             && before.hint == entry.hint
         {
@@ -247,7 +246,8 @@ impl Port {
             (Some(own), Some((_, asked))) => own == asked,
             _ => false,
         };
-        let repeats = same.is_some() && same == last.map(|(request, _)| request);
+        let previous = self.previous;
+        let repeats = || last.is_some_and(|(request, _)| previous == Some(request) && is_same(&request));
         let hinted = match entry.hint {
             Hint::None => None,
             Hint::Says(direction) => Some(direction),
@@ -259,7 +259,8 @@ impl Port {
             }
         };
         let again = self.echoed && last.is_some_and(|(request, _)| is_same(&request));
-        let echoes = habits.echo && repeats && !self.echoed && (entry.sides[0] || entry.sides == [false; 2]);
+        let echoes =
+            habits.echo && !self.echoed && (entry.sides[0] || entry.sides == [false; 2]) && repeats();
         let direction = match (entry.sides, hinted) {
             _ if echoes => Direction::Request,
             // Bytes count more than a word that may stand for something else.
@@ -281,7 +282,7 @@ impl Port {
                 self.previous.map_or(Direction::Request, |it| window.get(it).0.direction)
             }
             // Of a function that is not known the same bytes again are another try.
-            _ if awaited && repeats && entry.sides == [false; 2] => Direction::Request,
+            _ if awaited && entry.sides == [false; 2] && repeats() => Direction::Request,
             _ if awaited => Direction::Response,
             _ => Direction::Request,
         };
@@ -304,7 +305,7 @@ impl Port {
             (Direction::Request, None) => role = Role::Broadcast,
             (Direction::Request, Some(exchange)) => {
                 // Polls are alike, too: only who asks again at once tries again.
-                if repeats || again {
+                if again || repeats() {
                     role = Role::Retry;
                     // Of a function that is not known, that tells who speaks.
                     if let Some((request, _)) = last.filter(|_| entry.sides == [false; 2]) {
@@ -312,21 +313,26 @@ impl Port {
                     }
                 }
                 self.echoed = false;
-                // Who asks again does not wait for the first answer any more.
-                self.open.retain(|(_, open)| *open != exchange);
-                if self.open.len() >= most {
-                    self.open.remove(0);
+                if last.is_some() {
+                    // Who asks again does not wait for the first answer any more.
+                    self.open.retain(|(_, open)| *open != exchange);
+                    if self.open.len() >= most {
+                        self.open.remove(0);
+                    }
                 }
                 self.open.push((index, exchange));
             }
             (Direction::Response, None) => role = Role::Unasked,
             (Direction::Response, Some(exchange)) => {
-                let place =
-                    self.open.iter().rposition(|(_, open)| exchange == ANY_EXCHANGE || *open == exchange);
-                match place {
-                    Some(place) => {
-                        let late = protocol.waiting == 1 && place + 1 < self.open.len();
-                        let (request, _) = self.open.remove(place);
+                let answered = if awaited {
+                    self.open.pop()
+                } else {
+                    let place = self.open.iter().rposition(|(_, open)| *open == exchange);
+                    place.map(|place| self.open.remove(place))
+                };
+                match answered {
+                    Some((request, _)) => {
+                        let late = protocol.waiting == 1 && !awaited;
                         role = if late { Role::Late } else { Role::Plain };
                         partner = request as u32;
                         window.change(request, |request| request.partner = index as u32);

@@ -64,23 +64,34 @@ impl Entries {
         &self.counts
     }
 
-    pub(super) fn push(&mut self, entry: &Entry, bytes: &[u8]) {
-        self.counts.add(entry);
-        let at = match entry.written {
-            Some(_) => self.kept.end(),
-            None => self.kept.push(bytes),
-        };
-        // Where no time is told, the one before needs no room.
-        if entry.time != NO_TIME {
-            self.time = entry.time;
+    /// Adds telegrams, whose bytes lie in `data`.
+    pub(super) fn extend(&mut self, mut block: &[Entry], data: &[u8]) {
+        while let Some(first) = block.first() {
+            let (run, rest) = block.split_at(run(block));
+            let at = match first.written {
+                Some(_) => self.kept.end(),
+                None => self.kept.push(all_bytes(run, data)),
+            };
+            for entry in run {
+                self.counts.add(entry);
+                // Where no time is told, the one before needs no room.
+                if entry.time != NO_TIME {
+                    self.time = entry.time;
+                }
+                let behind = if first.written.is_some() { 0 } else { entry.at - first.at };
+                let index = self.rows.len();
+                pack(self.rows.next(), index, entry, at + behind, self.time);
+            }
+            block = rest;
         }
-        self.rows.push(pack(self.len(), entry, at, self.time));
     }
 
     /// Another partner, or who speaks, turned out to be another. Its bytes stay where they are.
     pub(super) fn set(&mut self, index: usize, entry: &Entry) {
         if let Some(before) = self.rows.get(index) {
-            self.rows.set(index, pack(index, entry, before[AT], before[TIME] as i64));
+            let mut row = before;
+            pack(&mut row, index, entry, before[AT], before[TIME] as i64);
+            self.rows.set(index, row);
             self.counts.replace(&unpack(index, before), entry);
         }
     }
@@ -125,6 +136,25 @@ impl Iterator for Iter<'_> {
 
 impl ExactSizeIterator for Iter<'_> {}
 
+/// How many entries at the beginning of a block, of which there is one, are not kept, or are kept and lie one behind the
+/// other.
+fn run(block: &[Entry]) -> usize {
+    let first = &block[0];
+    let end = first.at + Kept::MOST;
+    let goes_on = |pair: &[Entry]| match (pair[0].written, pair[1].written) {
+        (Some(_), Some(_)) => true,
+        (None, None) => pair[0].end() == pair[1].at && pair[1].end() <= end,
+        _ => false,
+    };
+    1 + block.windows(2).take_while(|pair| goes_on(pair)).count()
+}
+
+/// The bytes of entries that lie one behind the other.
+fn all_bytes<'a>(run: &[Entry], data: &'a [u8]) -> &'a [u8] {
+    let end = run.last().map_or(0, Entry::end);
+    data.get(run[0].at as usize..end as usize).unwrap_or_default()
+}
+
 /// Bytes in blocks of which each is allocated once.
 #[derive(Debug, Default)]
 struct Kept {
@@ -132,8 +162,10 @@ struct Kept {
 }
 
 impl Kept {
-    /// More than the longest entry has.
     const BLOCK: usize = 1 << 17;
+
+    /// So many are kept at a time: no entry has more.
+    const MOST: u64 = u16::MAX as u64;
 
     /// Where the next bytes would be.
     fn end(&self) -> u64 {
@@ -163,8 +195,9 @@ impl Kept {
     }
 }
 
-/// An entry as numbers that are small, or much like those of its neighbours.
-fn pack(index: usize, entry: &Entry, at: u64, time: i64) -> [u64; COLUMNS] {
+/// Writes an entry as numbers that are small, or much like those of its neighbours.
+#[inline]
+fn pack(row: &mut [u64; COLUMNS], index: usize, entry: &Entry, at: u64, time: i64) {
     let partner = match entry.partner {
         NOBODY => 0,
         // Those behind it are even.
@@ -174,17 +207,16 @@ fn pack(index: usize, entry: &Entry, at: u64, time: i64) -> [u64; COLUMNS] {
         },
     };
     let written = entry.written.map_or(0, |written| u64::from(written.from) << 8 | u64::from(written.step));
-    [
-        time as u64,
-        entry.offset,
-        entry.line.into(),
-        entry.skip.into(),
-        partner,
-        entry.port.into(),
-        kind(entry),
-        at,
-        written,
-    ]
+    // One by one: what is put together elsewhere is waited for when it is copied.
+    row[TIME] = time as u64;
+    row[1] = entry.offset;
+    row[2] = entry.line.into();
+    row[3] = entry.skip.into();
+    row[4] = partner;
+    row[5] = entry.port.into();
+    row[KIND] = kind(entry);
+    row[AT] = at;
+    row[8] = written;
 }
 
 fn unpack(index: usize, row: [u64; COLUMNS]) -> Entry {
@@ -300,7 +332,7 @@ mod tests {
     fn entries_come_back_with_their_bytes() {
         let mut entries = Entries::default();
         let bytes = |n: u32| vec![n as u8; usize::from(entry(n).length)];
-        (1..30_000).for_each(|n| entries.push(&entry(n), &bytes(n)));
+        (1..30_000).for_each(|n| entries.extend(&[entry(n)], &bytes(n)));
         assert_eq!(entries.len(), 29_999);
         for (n, found) in (1..).zip(&entries) {
             // Whoever is first has nobody before.
@@ -315,7 +347,7 @@ mod tests {
     #[test]
     fn an_entry_finds_its_partner_later() {
         let mut entries = Entries::default();
-        (1..3000).for_each(|n| entries.push(&entry(n), &[]));
+        (1..3000).for_each(|n| entries.extend(&[entry(n)], &[]));
         let before = entries.get(20).unwrap();
         // Among the bytes in hand it was elsewhere.
         entries.set(20, &Entry { partner: 2900, sides: [true, false], at: before.at + 7, ..before });

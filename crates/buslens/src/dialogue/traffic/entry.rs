@@ -105,6 +105,11 @@ impl Entry {
         self.written
     }
 
+    /// Where its bytes end, and others may begin.
+    pub(super) fn end(&self) -> u64 {
+        self.at + u64::from(self.length)
+    }
+
     pub(super) fn set_protocol(&mut self, protocol: &'static Protocol) {
         self.protocol = number(protocol);
     }

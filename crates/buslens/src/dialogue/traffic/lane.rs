@@ -1,5 +1,7 @@
 //! What waits for the rest of its telegram, and the chunks it came in.
 
+use std::sync::LazyLock;
+
 use super::entry::{Hint, NO_TIME, Written};
 use super::pieces::Held;
 use crate::field::Facts;
@@ -52,6 +54,18 @@ pub(super) struct Row {
     pub(super) facts: Facts,
 }
 
+/// Of bytes that came from nowhere.
+static NO_ROW: LazyLock<Row> = LazyLock::new(|| Row {
+    from: 0,
+    time: NO_TIME,
+    hint: Hint::None,
+    port: 0,
+    line: 0,
+    offset: 0,
+    written: None,
+    facts: Facts::default(),
+});
+
 /// Where chunks of a telegram lie further apart, they are none.
 pub(super) const PAUSE: i64 = 1_000_000;
 
@@ -79,22 +93,15 @@ impl Lane {
 
     /// The chunk that the byte at `at` of the buffer came in.
     #[inline]
-    pub(super) fn row(&self, at: usize) -> Row {
+    pub(super) fn row(&self, at: usize) -> &Row {
         let at = at as isize;
-        if let Some(last) = self.rows.last().filter(|last| last.from <= at) {
-            return *last;
+        match self.rows.last() {
+            Some(last) if last.from <= at => last,
+            _ => {
+                let next = self.rows.partition_point(|row| row.from <= at);
+                self.rows.get(next.saturating_sub(1)).unwrap_or(&NO_ROW)
+            }
         }
-        let next = self.rows.partition_point(|row| row.from <= at);
-        self.rows.get(next.saturating_sub(1)).copied().unwrap_or(Row {
-            from: 0,
-            time: NO_TIME,
-            hint: Hint::None,
-            port: 0,
-            line: 0,
-            offset: 0,
-            written: None,
-            facts: Facts::default(),
-        })
     }
 
     /// The first `count` bytes are gone.

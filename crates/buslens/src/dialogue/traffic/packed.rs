@@ -8,8 +8,9 @@ use std::fmt;
 /// Rows of `N` numbers each.
 pub(super) struct Packed<const N: usize> {
     chunks: Vec<Chunk>,
-    /// The rows of the chunk that is not full yet.
+    /// A place for the rows of the chunk that is not full yet, and how many it has.
     open: Vec<[u64; N]>,
+    filled: usize,
     desk: Desk,
 }
 
@@ -37,22 +38,42 @@ struct Head {
 
 impl<const N: usize> Default for Packed<N> {
     fn default() -> Self {
-        Self { chunks: Vec::new(), open: Vec::new(), desk: Desk::default() }
+        Self { chunks: Vec::new(), open: Vec::new(), filled: 0, desk: Desk::default() }
     }
 }
 
 impl<const N: usize> Packed<N> {
     pub fn len(&self) -> usize {
-        self.chunks.len() * CHUNK + self.open.len()
+        self.chunks.len() * CHUNK + self.filled
     }
 
-    #[inline]
     pub fn push(&mut self, row: [u64; N]) {
-        self.open.push(row);
-        if self.open.len() == CHUNK {
-            self.chunks.push(self.desk.pack(&self.open));
-            self.open.clear();
+        *self.next() = row;
+    }
+
+    /// The place for the next row, to be written there: rows that are put together elsewhere are copied.
+    #[inline]
+    pub fn next(&mut self) -> &mut [u64; N] {
+        if self.filled == self.open.len() {
+            self.make_room();
         }
+        self.filled += 1;
+        &mut self.open[self.filled - 1]
+    }
+
+    #[cold]
+    fn make_room(&mut self) {
+        if self.filled == CHUNK {
+            self.chunks.push(self.desk.pack(&self.open));
+            self.filled = 0;
+        } else {
+            self.open.resize((2 * self.filled).clamp(8, CHUNK), [0; N]);
+        }
+    }
+
+    /// The rows that are not packed yet.
+    fn open(&self) -> &[[u64; N]] {
+        &self.open[..self.filled]
     }
 
     pub fn get(&self, index: usize) -> Option<[u64; N]> {
@@ -65,7 +86,7 @@ impl<const N: usize> Packed<N> {
         if let Some(chunk) = self.chunks.get(index / CHUNK) {
             return Some(columns.map(|column| Head::of(chunk, column).number(chunk, index % CHUNK)));
         }
-        let row = self.open.get(index - self.chunks.len() * CHUNK)?;
+        let row = self.open().get(index - self.chunks.len() * CHUNK)?;
         Some(columns.map(|column| row[column]))
     }
 
@@ -76,7 +97,7 @@ impl<const N: usize> Packed<N> {
             unpack(chunk, &mut rows);
             rows[index % CHUNK] = row;
             *chunk = self.desk.pack(&rows);
-        } else if let Some(open) = self.open.get_mut(index - self.chunks.len() * CHUNK) {
+        } else if let Some(open) = self.open[..self.filled].get_mut(index - self.chunks.len() * CHUNK) {
             *open = row;
         }
     }
@@ -115,10 +136,16 @@ impl<const N: usize> Iterator for Rows<'_, N> {
     #[inline]
     fn next(&mut self) -> Option<[u64; N]> {
         let at = self.next % CHUNK;
+        if self.next == self.packed.len() {
+            return None;
+        }
         if at == 0 {
             match self.packed.chunks.get(self.next / CHUNK) {
                 Some(chunk) => unpack(chunk, &mut self.chunk),
-                None => self.chunk.clone_from(&self.packed.open),
+                None => {
+                    self.chunk.clear();
+                    self.chunk.extend_from_slice(self.packed.open());
+                }
             }
         }
         let row = *self.chunk.get(at)?;

@@ -59,7 +59,7 @@ impl Traffic {
         let mut buffer = std::mem::take(&mut lane.buffer);
         let mut decimal = std::mem::take(&mut lane.decimal);
         let mut breaks = std::mem::take(&mut lane.breaks);
-        let row = lane.row(0);
+        let row = *lane.row(0);
         let mut found = std::mem::take(&mut self.found);
         self.piece(index, &buffer, &decimal, &breaks, row, &mut found);
         self.found = found;
@@ -248,6 +248,7 @@ impl Traffic {
         let mut at = 0;
         while at < bytes.len() {
             let waiting = waiting.filter(|_| at == 0);
+            let waiting = waiting.as_ref();
             let place = Place { bytes: &bytes[at..], last: true, in_step: true, waiting };
             let Begins::Telegram(length) = self.splitter.begins(protocol, place) else { break };
             let telegram = &bytes[at..at + length];
@@ -332,7 +333,8 @@ impl Traffic {
         let mut at = 0;
         let mut waiting = self.waiting_at(index);
         while covered > 0 && at < bytes.len() {
-            let place = Place { bytes: &bytes[at..], last: true, in_step: false, waiting };
+            let waiting_now = waiting.as_ref();
+            let place = Place { bytes: &bytes[at..], last: true, in_step: false, waiting: waiting_now };
             match self.splitter.begins(protocol, place) {
                 Begins::Telegram(length) => {
                     let telegram = &bytes[at..at + length];
@@ -413,7 +415,7 @@ impl Traffic {
     /// A telegram came that needs no other piece: what was held is by itself, unless it was a part of this one.
     fn release(&mut self, index: usize, bytes: &[u8]) {
         let Some(mut held) = self.lanes[index].held.take() else { return };
-        let row = self.lanes[index].row(0);
+        let row = *self.lanes[index].row(0);
         if is_apart(&held, row) {
             return;
         }

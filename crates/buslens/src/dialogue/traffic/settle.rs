@@ -5,11 +5,14 @@ use std::collections::HashSet;
 use std::fmt;
 
 use super::collect::Traffic;
-use super::entry::{Entry, bytes};
+use super::entry::Entry;
 use super::packed::Packed;
 
 /// So many telegrams are settled at a time: what is true for a log shows in as many.
 const BLOCK: usize = 1 << 14;
+
+/// The same where nothing is left to judge: the nearest caches of a processor hold as many.
+const CLEAR_BLOCK: usize = 1 << 10;
 
 /// So many stay behind them, since what follows a telegram tells more of it.
 const BEHIND: usize = 64;
@@ -18,8 +21,8 @@ impl Traffic {
     /// Settles what is complete, up to a line that is read.
     #[inline]
     pub(super) fn settle_blocks(&mut self, line: u32) {
-        while self.entries.len() >= BLOCK + BEHIND {
-            self.settle(self.end_of_block());
+        while let Some(block) = self.block() {
+            self.settle(self.end_of_block(block));
         }
         if self.passed.len() + self.unread.len() >= 2 * BLOCK {
             match line {
@@ -48,14 +51,23 @@ impl Traffic {
         (self.entries, self.data) = (Vec::new(), Vec::new());
     }
 
-    /// Where the next block ends: behind an answer and a line, if there is such a place nearby.
-    fn end_of_block(&self) -> usize {
+    /// About how many telegrams the next block has, if there are enough.
+    #[inline]
+    fn block(&self) -> Option<usize> {
+        let clear = self.weak.is_empty() && self.gone.is_empty() && !self.turns && !self.settled.is_empty();
+        let least = if clear { CLEAR_BLOCK } else { BLOCK };
+        let ready = self.entries.len().checked_sub(BEHIND).filter(|ready| *ready >= least)?;
+        Some(ready.min(BLOCK))
+    }
+
+    /// Where the next block of so many telegrams ends: behind an answer and a line, if there is such a place nearby.
+    fn end_of_block(&self, block: usize) -> usize {
         let of_line = |end: &usize| match &self.entries[end - 1..=*end] {
             [last, next] => last.line != next.line || next.line == 0,
             _ => false,
         };
-        let ends = || (BLOCK - BEHIND..=BLOCK).rev().filter(of_line);
-        ends().find(|end| self.entries[end - 1].sides[1]).or_else(|| ends().next()).unwrap_or(BLOCK)
+        let ends = || (block - BEHIND..=block).rev().filter(of_line);
+        ends().find(|end| self.entries[end - 1].sides[1]).or_else(|| ends().next()).unwrap_or(block)
     }
 
     /// Settles the first `count` entries.
@@ -65,9 +77,7 @@ impl Traffic {
             // What a capture says of a connection needs no guess.
             self.meeting.meet(&mut self.settled, &mut block, &self.data, !self.both_ways);
         }
-        for entry in &block {
-            self.settled.push(entry, bytes(entry, &self.data));
-        }
+        self.settled.extend(&block, &self.data);
         let kept = self.entries.first().map_or(self.data.len(), |entry| entry.at as usize);
         self.data.drain(..kept);
         self.entries.iter_mut().for_each(|entry| entry.at -= kept as u64);

@@ -4,7 +4,9 @@ use std::collections::HashMap;
 
 use super::collect::Traffic;
 use super::entry::{Entry, Role};
+use crate::field::Direction;
 use crate::frame::Verdict;
+use crate::modbus::EXCEPTION;
 
 /// What happened in a log.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -66,8 +68,37 @@ pub(super) struct Counts {
     verdicts: [usize; 4],
     bytes_discarded: usize,
     times: Option<(i64, i64)>,
-    dialogs: Vec<Dialog>,
+    tallies: Vec<Tally>,
     places: Places,
+}
+
+/// The telegrams of a port, a unit and a function code as it is on the wire.
+#[derive(Clone, Debug)]
+struct Tally {
+    port: u16,
+    unit: Option<u8>,
+    function: u8,
+    /// How many there are of each [`class`].
+    counts: [u32; CLASSES],
+}
+
+const CLASSES: usize = 32;
+
+const RESPONSE: usize = 1;
+const PARTNER: usize = 2;
+const WRONG: usize = 4;
+const PLAIN: usize = 8;
+const RETRY: usize = 16;
+
+/// What matters of a telegram for its dialog, in one number, so that there is only one to count up.
+#[inline]
+fn class(entry: &Entry) -> usize {
+    let bit = |bit: usize, is: bool| bit * usize::from(is);
+    bit(RESPONSE, entry.direction == Direction::Response)
+        | bit(PARTNER, entry.partner().is_some())
+        | bit(WRONG, entry.verdict == Verdict::Wrong)
+        | bit(PLAIN, entry.role == Role::Plain)
+        | bit(RETRY, entry.role == Role::Retry)
 }
 
 impl Counts {
@@ -84,8 +115,8 @@ impl Counts {
 
     #[inline]
     fn count<const BY: isize>(&mut self, entry: &Entry) {
-        let add = |number: &mut usize, is: bool| *number = number.wrapping_add_signed(BY * isize::from(is));
-        add(&mut self.roles[entry.role as usize], true);
+        let role = &mut self.roles[entry.role as usize];
+        *role = role.wrapping_add_signed(BY);
         if entry.role == Role::Discarded {
             self.bytes_discarded += usize::from(entry.length);
             return;
@@ -97,40 +128,75 @@ impl Counts {
         if entry.role == Role::Copy {
             return;
         }
-        add(&mut self.verdicts[entry.verdict as usize], true);
+        let verdict = &mut self.verdicts[entry.verdict as usize];
+        *verdict = verdict.wrapping_add_signed(BY);
         if entry.role == Role::Echo {
             return;
         }
         let place = self.places.of(entry);
-        if place == self.dialogs.len() {
-            let (port, unit, function) = (entry.port, entry.unit, entry.plain_function());
-            self.dialogs.push(Dialog { port, unit, function, ..Dialog::default() });
+        if place == self.tallies.len() {
+            let Entry { port, unit, function, .. } = *entry;
+            self.tallies.push(Tally { port, unit, function, counts: [0; CLASSES] });
         }
-        let dialog = &mut self.dialogs[place];
-        add(&mut dialog.telegrams, true);
-        add(&mut dialog.requests, entry.asks());
-        add(&mut dialog.answered, entry.answers());
-        add(&mut dialog.unanswered, entry.unanswered());
-        add(&mut dialog.retries, entry.role == Role::Retry);
-        add(&mut dialog.exceptions, entry.refuses());
-        add(&mut dialog.check_failed, entry.verdict == Verdict::Wrong);
+        let count = &mut self.tallies[place].counts[class(entry)];
+        *count = count.wrapping_add_signed(BY as i32);
+    }
+}
+
+impl Tally {
+    fn dialog(&self) -> Dialog {
+        let sum = |bits: usize, of: usize| {
+            let chosen = self.counts.iter().enumerate().filter(|(class, _)| class & bits == of);
+            chosen.map(|(_, count)| *count as usize).sum::<usize>()
+        };
+        let asks = |bits: usize| sum(RESPONSE | PLAIN | bits, PLAIN) + sum(RESPONSE | RETRY | bits, RETRY);
+        Dialog {
+            port: self.port,
+            unit: self.unit,
+            function: self.function & !EXCEPTION,
+            telegrams: sum(0, 0),
+            requests: asks(0),
+            answered: sum(RESPONSE | PARTNER, RESPONSE | PARTNER),
+            unanswered: asks(PARTNER),
+            retries: sum(RETRY, RETRY),
+            exceptions: if self.function & EXCEPTION == 0 { 0 } else { sum(RESPONSE, RESPONSE) },
+            check_failed: sum(WRONG, WRONG),
+            ..Dialog::default()
+        }
+    }
+}
+
+impl Dialog {
+    fn key(&self) -> (u16, Option<u8>, u8) {
+        (self.port, self.unit, self.function)
+    }
+
+    /// Takes what was counted of the same dialog beside it.
+    fn join(&mut self, other: &Self) {
+        self.telegrams += other.telegrams;
+        self.requests += other.requests;
+        self.answered += other.answered;
+        self.unanswered += other.unanswered;
+        self.retries += other.retries;
+        self.exceptions += other.exceptions;
+        self.check_failed += other.check_failed;
     }
 }
 
 /// Port, unit and function in one number.
-fn key(entry: &Entry) -> u32 {
-    u32::from(entry.port) << 16
-        | u32::from(entry.unit.is_some()) << 15
-        | u32::from(entry.unit.unwrap_or_default()) << 7
-        | u32::from(entry.plain_function())
+fn key(entry: &Entry) -> u64 {
+    u64::from(entry.port) << 24
+        | u64::from(entry.unit.is_some()) << 16
+        | u64::from(entry.unit.unwrap_or_default()) << 8
+        | u64::from(entry.function)
 }
 
-/// The places of dialogs, in the order in which they are met.
+/// The places of tallies, in the order in which they are met.
 #[derive(Clone, Debug, Default)]
 struct Places {
-    all: HashMap<u32, usize>,
+    all: HashMap<u64, usize>,
     /// The last one for each shelf of keys, so that hardly any is looked up.
-    recent: Vec<(u32, usize)>,
+    recent: Vec<(u64, usize)>,
 }
 
 impl Places {
@@ -139,7 +205,7 @@ impl Places {
     #[inline]
     fn of(&mut self, entry: &Entry) -> usize {
         let key = key(entry);
-        let shelf = (key ^ key >> 7 ^ key << 4) as usize % Self::SHELVES;
+        let shelf = (key ^ key >> 8 ^ key << 4) as usize % Self::SHELVES;
         match self.recent.get(shelf) {
             Some((recent, place)) if *recent == key && *place != usize::MAX => *place,
             _ => self.look_up(key, shelf),
@@ -147,7 +213,7 @@ impl Places {
     }
 
     #[cold]
-    fn look_up(&mut self, key: u32, shelf: usize) -> usize {
+    fn look_up(&mut self, key: u64, shelf: usize) -> usize {
         let fresh = self.all.len();
         let place = *self.all.entry(key).or_insert(fresh);
         self.recent.resize(Self::SHELVES, (0, usize::MAX));
@@ -167,14 +233,7 @@ struct Timing {
 pub fn statistics(traffic: &Traffic) -> Statistics {
     let counts = traffic.entries().counts();
     let role = |role: Role| counts.roles[role as usize];
-    let mut dialogs = match counts.times {
-        Some((first, last)) => {
-            let timings = timings(traffic).into_iter().zip(&counts.dialogs);
-            timings.map(|(timing, dialog)| timing.close(last - first, dialog)).collect()
-        }
-        None => counts.dialogs.clone(),
-    };
-    dialogs.sort_unstable_by_key(|dialog| (dialog.port, dialog.unit, dialog.function));
+    let dialogs = dialogs(traffic);
     let sum = |number: fn(&Dialog) -> usize| dialogs.iter().map(number).sum();
     Statistics {
         telegrams: counts.verdicts.iter().sum(),
@@ -195,11 +254,31 @@ pub fn statistics(traffic: &Traffic) -> Statistics {
     }
 }
 
-/// The times of all dialogs, by their places.
+/// All dialogs in their order.
+fn dialogs(traffic: &Traffic) -> Vec<Dialog> {
+    let counts = traffic.entries().counts();
+    let timings = if counts.times.is_some() { timings(traffic) } else { Vec::new() };
+    let timings = timings.into_iter().chain(std::iter::repeat_with(Timing::default));
+    let mut all: Vec<(Dialog, Timing)> = counts.tallies.iter().map(Tally::dialog).zip(timings).collect();
+    all.sort_unstable_by_key(|(dialog, _)| dialog.key());
+    // Answers that refuse have a function code of their own.
+    all.dedup_by(|(next, later), (dialog, timing)| {
+        let same = next.key() == dialog.key();
+        if same {
+            dialog.join(next);
+            timing.join(later);
+        }
+        same
+    });
+    let whole = counts.times.map_or(0, |(first, last)| last - first);
+    all.into_iter().map(|(dialog, timing)| timing.close(whole, dialog)).collect()
+}
+
+/// The times of all tallies, by their places.
 fn timings(traffic: &Traffic) -> Vec<Timing> {
     let entries = traffic.entries();
     let mut places = entries.counts().places.clone();
-    let mut all = vec![Timing::default(); entries.counts().dialogs.len()];
+    let mut all = vec![Timing::default(); entries.counts().tallies.len()];
     for entry in entries {
         if entry.unanswered() {
             all[places.of(&entry)].silent.extend(entry.time());
@@ -219,12 +298,17 @@ pub fn latency(answered: Option<i64>, asked: Option<i64>) -> Option<u32> {
 }
 
 impl Timing {
+    fn join(&mut self, other: &mut Self) {
+        self.latencies.append(&mut other.latencies);
+        self.silent.append(&mut other.silent);
+    }
+
     /// `whole` is how long the log is.
-    fn close(mut self, whole: i64, counted: &Dialog) -> Dialog {
+    fn close(mut self, whole: i64, counted: Dialog) -> Dialog {
         let middle = self.latencies.len() / 2;
         let median = (!self.latencies.is_empty()).then(|| *self.latencies.select_nth_unstable(middle).1);
         let worst = self.latencies.iter().copied().max();
-        Dialog { median, worst, silent: densest(&mut self.silent, whole), ..*counted }
+        Dialog { median, worst, silent: densest(&mut self.silent, whole), ..counted }
     }
 }
 

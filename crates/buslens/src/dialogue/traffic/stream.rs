@@ -106,7 +106,20 @@ impl Traffic {
             if flowing && !last && bytes.len() - at < SEEN {
                 break;
             }
-            let waiting = self.waiting[port];
+            if in_step && main.is(&modbus_rtu::PROTOCOL) && !flowing && !self.both_ways {
+                self.framed.clear();
+                let run = self.splitter.run(&bytes[at..], last, &mut self.waiting[port], &mut self.framed);
+                if run > 0 {
+                    let kept = *kept.get_or_insert_with(|| keep(&mut self.data, bytes));
+                    let framed = std::mem::take(&mut self.framed);
+                    self.push_all(index, &bytes[at..], from + at, kept + at, &framed);
+                    self.framed = framed;
+                    at += run;
+                    garbage = at;
+                    continue;
+                }
+            }
+            let waiting = self.waiting[port].as_ref();
             let place = Place { bytes: &bytes[at..], last, in_step, waiting };
             match self.splitter.begins(main, place) {
                 Begins::Telegram(length) => {

@@ -334,7 +334,7 @@ impl Log {
             }
             Way::Stream => {
                 // Browsers make code quick between two calls of it, not within one.
-                const PART: usize = 1 << 16;
+                const PART: usize = 1 << 14;
                 let mut before = *taken;
                 for bytes in part.chunks(PART) {
                     let written = Some(Written { from: 0, step: 1 });
