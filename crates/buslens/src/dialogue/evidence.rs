@@ -395,7 +395,6 @@ fn numbers(pdu: &[u8], splitter: &Splitter) -> Option<i32> {
                 UNLIKELY
             }
         }
-        6 => 0,
         // Of a diagnosis, the sub-function says what it is.
         8 if number(1) > LAST_DIAGNOSIS => UNLIKELY,
         15 if u32::from(pdu.get(5).copied().unwrap_or_default()) == number(3).div_ceil(8) => 16,

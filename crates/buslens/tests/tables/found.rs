@@ -113,6 +113,8 @@ const CONVERSATIONS: &[&str] = &[
     "tx: 06 04 22 07 00 01 8B C4\nrx: 06 04 02 00 40 0D\nrx: 00",
     "discarded FA 07 01 02 03 ~~",
     "discarded FA 07 ~~",
+    "tx: 01 06 00 C8 00 03 ~~\nand that\n01 06 00 C8 00 03 12 34",
+    "tx: 01 06 00 C8 00 03 ~~\nand that\n01 06 00 C8 00",
     "discarded FA 63 01 02 ~~",
     "rx: 68 09 09 68 02\nrx: 01 5D 01 02 03 04 05 06 75 16",
     "rx: 00 09 00 00 00\nrx: 09 01 03 06 00 80 42 A4 F1 DE",

@@ -530,6 +530,7 @@ pub const BLOCKS: &[&str] = &[
     "| a | 01 |\n| b | 03 |\n|\n| c | 00 |\n| d | C8 |\n| e |",
     "| 01 03 00 C8 | x | 02 |\n| 01 03 00 C9 | y | 03 |\n| 01 03 00 CA | z | 04 |\n| 01 03 00 CB | z | 05 |",
     "x 01\nx 03\nx 00\n01 03 00 C8 00 03\nx C8\nx 00",
+    "x 01\nx 03\n---\nx 00\nx C8\nx 00\nx 03",
     "a 1\nb 2\nc 3\nd 4\ne 05 06 07 08",
     "time 10:00:00 a 01\ntime 10:00:01 a 03\ntime 10:00:02 a 00\ntime 10:00:03 a C8",
     "tx:\nx 01\nx 03\nx 00\nx C8",
