@@ -1,8 +1,18 @@
 //! What the codecs and the reader say of many small things, a line each, in `tests/tables`: a change that nobody meant shows
 //! there. `BLESS=1 cargo test --test tables` writes the tables; read what changed before you commit it.
 
-#[path = "tables/reader.rs"]
-mod reader;
+#[path = "tables/damage.rs"]
+mod damage;
+#[path = "tables/evidence.rs"]
+mod evidence;
+#[path = "tables/found.rs"]
+mod found;
+#[path = "tables/pieces.rs"]
+mod pieces;
+#[path = "tables/protocols.rs"]
+mod protocols;
+#[path = "tables/texts.rs"]
+mod texts;
 #[path = "tables/traffic.rs"]
 mod traffic;
 

@@ -25,7 +25,7 @@
 //! | called left over or thrown away | −6 |
 //! | it is of an array of a program, whose brackets, marks and size say nothing | −2 |
 //! | its numbers have two bytes and a mark each, as registers and addresses are written | −8 |
-//! | telegrams stand in the same place of other lines; what stands there is none | up to 8; −4 |
+//! | telegrams stand in the same place of other lines; what stands there is none | up to 8; −4, and −8 where most are none |
 //! | the same unit and function were seen; only telegrams of another kind were | 4; −8 |
 //! | it answers a request, or is answered | 12 |
 //! | the same telegram was seen, with its check | 16 |
@@ -100,7 +100,13 @@ pub fn company(pieces: usize, proven: usize, alike: usize) -> i32 {
     const MOST: i32 = 8;
     let good = proven + alike;
     match (good * 2 > pieces, good) {
-        (false, _) if pieces > 2 => -4,
+        (false, _) if pieces > 2 => {
+            if good * 3 < pieces {
+                -8
+            } else {
+                -4
+            }
+        }
         (false, _) | (true, 0 | 1) if proven == 0 => 0,
         _ => (3 * proven as i32 + 2 * alike.saturating_sub(1) as i32).min(MOST),
     }
@@ -389,7 +395,6 @@ fn numbers(pdu: &[u8], splitter: &Splitter) -> Option<i32> {
                 UNLIKELY
             }
         }
-        6 => 0,
         // Of a diagnosis, the sub-function says what it is.
         8 if number(1) > LAST_DIAGNOSIS => UNLIKELY,
         15 if u32::from(pdu.get(5).copied().unwrap_or_default()) == number(3).div_ceil(8) => 16,
@@ -476,6 +481,9 @@ mod tests {
             ((2, 1, 1), 3),
             ((5, 5, 0), 8),
             ((5, 1, 1), -4),
+            ((6, 1, 1), -4),
+            ((7, 1, 1), -8),
+            ((3, 0, 0), -8),
             ((2, 0, 0), 0),
         ] {
             assert_eq!(company(pieces, proven, alike), bits, "{pieces} {proven} {alike}");

@@ -507,7 +507,13 @@ impl Reader {
         let Some(first) = self.scan.runs.first() else { return false };
         let alone = !line[..first.span.from].iter().any(u8::is_ascii_alphanumeric);
         let may_begin = self.scan.time.is_none() && (alone || self.scan.runs.iter().any(|run| run.marked));
-        if !(alone || begins) || (begins && !may_begin) {
+        // Among numbers with a mark, one without is decimal, unless a person says otherwise.
+        let marked = self.list.facts.marked && self.form.numbers.is_none();
+        let fits = |run: &Run| {
+            let parted = run.tokens() == 1 || run.is_list();
+            parted && (run.marked || run.decimal || !marked)
+        };
+        if !(alone && self.scan.runs.iter().all(fits) || begins) || (begins && !may_begin) {
             return false;
         }
         let code = without_comment(line);

@@ -212,6 +212,8 @@ impl Port {
     fn next(&mut self, window: &mut Window<'_>, index: usize, habits: Habits) {
         /// On a serial line answers come at once, or late; older ones are not waited for.
         const LATE: usize = 8;
+        /// The check of a telegram on a serial line.
+        const CHECK: usize = 2;
         let (entry, own) = window.get(index);
         let (entry, protocol) = (*entry, entry.protocol());
         let is_same = |other: &usize| alike(window.get(*other).1, own);
@@ -223,6 +225,18 @@ impl Port {
             let direction = before.direction;
             window.change(index, |entry| (entry.role, entry.direction) = (Role::Copy, direction));
             self.previous = Some(index);
+            return;
+        }
+        // A write that is printed again without its check could as well be its answer.
+        let body = |whole: &[u8]| whole.len() == own.len() + CHECK && whole.starts_with(own);
+        if (entry.sides, entry.hint, entry.verdict) == ([true; 2], Hint::None, Verdict::NoCheck)
+            && let Some((before, _)) = self.previous.map(|it| window.get(it)).filter(|(_, it)| body(it))
+        {
+            let direction = before.direction;
+            let sides = [direction == Direction::Request, direction == Direction::Response];
+            window.change(index, |entry| {
+                (entry.role, entry.direction, entry.sides) = (Role::Copy, direction, sides);
+            });
             return;
         }
         let exchange = (protocol.exchange)(own);

@@ -65,6 +65,11 @@ impl Alike {
         const MOST: usize = 16;
         /// Where so many were of no use, few more are tried.
         const USELESS: usize = 64;
+        /// Longer ones are no lines of a log, and their patterns would take memory.
+        const LONGEST: usize = 1 << 12;
+        if line.len() > LONGEST {
+            return;
+        }
         if self.idle > USELESS {
             self.idle = if self.idle > 2 * USELESS { USELESS - 1 } else { self.idle + 1 };
             return;
@@ -353,6 +358,7 @@ mod tests {
             ("COM 12: 01 03 00 C8 00", "COM 13: 01 03 00 C8 00"),
             ("0010: 01 03 00 C8 00", "0020: 01 03 00 C8 00"),
             ("x -01 03 00 C8 00", "x -16 03 00 C8 00"),
+            ("x -12345 rx 01 03 00 C8 00", "x -67890 rx 01 03 00 C8 00"),
             (r"\x01 01 03 00 C8 00", r"\x02 01 03 00 C8 00"),
         ] {
             assert!(!is_like(first, second, Some(Numbers::Hex)), "{first} {second}");
@@ -371,5 +377,13 @@ mod tests {
         }
         assert!(alike.patterns.len() <= 16);
         assert!(alike.patterns.iter().all(|pattern| pattern.head.len() > 50), "the oldest ones are replaced");
+        let mut alike = Alike::default();
+        for (bytes, learned) in [(1360, 1), (1370, 0)] {
+            let line = format!("tx {}", "01 ".repeat(bytes));
+            scan.read(line.as_bytes(), Start::default(), Some(Numbers::Hex));
+            alike.patterns.clear();
+            alike.learn(line.as_bytes(), &scan);
+            assert_eq!(alike.patterns.len(), learned, "{bytes}");
+        }
     }
 }

@@ -1,0 +1,311 @@
+//! Which telegrams are found in small texts and in what people paste.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use buslens::field::hex;
+use buslens::tool::Options;
+use buslens::tool::log::{Log, Reading, Role};
+use buslens::walk::CRC_16_MODBUS;
+
+use super::texts::{BLOCKS, SPELLINGS, SURROUNDINGS};
+use super::{assert_table, bytes};
+
+/// What a text as a whole says: conversations, copies, what is near.
+const CONVERSATIONS: &[&str] = &[
+    "TX: 01 03 00 C8 00 03\nRX: 01 03 06 00 80 42 A4 F1 DE",
+    "TX: 01 03 00 C8 00 03 84 36\nRX: 01 03 06 00 80 42 A4 F1 DE B0 F9",
+    "TX: 01 03 00 C8 00 03 84 35\nRX: 01 03 06 00 80 42 A4 F1 DE B0 F9",
+    "TX: 01 03 00 C8 00 03 84 35\nRX: 01 03 06 00 80 42",
+    "TX: 01 03 00 C8 00 03 84 35\nRX: 01 83 02 C0 F2",
+    "TX: 01 03 00 C8 00 03 84 35\nRX: 01 83 02",
+    "TX: 01 03 00 C8 00 03 84 35\nRX: 01 83",
+    "TX: 01 03 00 C8 00 03 84 35\nRX: 02 83 02",
+    "TX: 01 03 00 C8 00 03 84 35\nx\ny\nz\nRX: 02 03 06 00 80 42 A4 F1 DE B0 F9",
+    "TX: 01 03 00 C8 00 03 84 35\nRX: 01\nRX: 03 06 00 80 42 A4 F1 DE B0 F8",
+    "TX: 01 03 00 C8 00 03 84 35\nRX: 01 03 06 00\nRX: 80 42 A4 F1\nRX: DE B0 F8",
+    "TX: 01 03 00 C8 00 03 84 35\nRX: 01 03 06 00 80 42 A4 F1 DE B0 F8 01 03\nRX: 00 C8 00 03 84 35",
+    "10:00:00 RX: 01 03 06 00\n10:00:09 RX: 80 42 A4 F1 DE B0 F8",
+    "10:00:00.000 RX: 01 03 06 00\n10:00:00.100 RX: 80 42 A4 F1 DE B0 F8",
+    "RX: 01 03 06 00\nRX: 01 03 06 00 80 42\nRX: 01 03 06 00 80 42 A4 F1 DE B0 F8",
+    "RX: 01 03 06 00\nRX: 01 03 06 00\nRX: 80 42 A4 F1 DE B0 F8",
+    "RX: 01 03 06 00\nother 99\nRX: 80 42 A4 F1 DE B0 F8",
+    "tx: 55 01 03 00 C8\ntx: 00 03 84 35",
+    "TX: 01 05 00 C8 FF 00\nRX: 01 05 00 C8 FF 00",
+    "TX: 01 05 00 C8 FF 00\nRX: 01 05 00 C8 00 00",
+    "TX: 01 06 00 C8 00 05 00 00\nRX: 01 06 00 C8 00 05 00 01",
+    "TX: 01 10 00 C8 00 02 04 00 01 00 02\nRX: 01 10 00 C8 00 02",
+    "TX: 11 42 01 02 03 5D 21\nRX: 11 42 01 02 03 04",
+    "TX: 03 04 00 01\nRX: 03 04 00 01 00 02",
+    "tx 03 00 01 00 02\nrx 03 04 00 01 00 02",
+    "tx 03 00 01 00 02\nrx 03 04 00 01 00",
+    "03 00 01 00 02\n03 04 00 01 00 02",
+    "sent 01 03 00 C8 00 03 84 35\ncopy of 01 03 00 C8 00 03",
+    "sent 01 03 00 C8 00 03 84 35\nthe data were 03 00 C8 00",
+    "sent 01 03 00 C8 00 03 84 35\nthe frame 01 03 00 C8 00 03 00 00 again",
+    "sent 01 03 00 C8 00 03 84 35\nTX: 01 03 00 C8 00 03 84 01 03 00 C8 00 03 84",
+    "sent 01 03 00 C8 00 03 84 35 sent 01 03 00 C8 00 03 84 35",
+    "01 03 00 C8 00 03 84 35 01 03 06 00 80 42 A4 F1 DE B0 F8",
+    "01 03 00 C8 00 03 84 35 01 03 06 00 80 42 A4 F1 DE B0",
+    "01 03 00 C8 00 03 84 35 11 22",
+    "TX: FF FF 01 03 00 C8 00 03 84 35 00 00",
+    "TX: 00 01 42 00 C8 00 03 D1 F5",
+    "TX: 01 42 00 C8 00 03 D1 F5",
+    "TX: 01 42 00 C8 00 03 D1 F5 00",
+    "rx 00 01 00 00 00 06 01 03 00 C8 00 03",
+    "rx 00 01 00 00 00 06 01 63 00 C8 00 03",
+    "rx 00 01 00 00 00 02 01 07",
+    "rx 55 00 01 00 00 00 06 01 03 00 C8 00 03",
+    "rx 00 01 00 00 00 06 01 03 00 C8 00 03 00 02 00 00 00 06 01 03 00 C8 00 03",
+    "tx 00 01 00 00 00 06 01 03 00 C8 00 03\nrx 00 01 00 00 00 09 01 03 06 00 80 42 A4 F1 DE\nrx 00 02 00 00 00 07 01 03 00 C8 00 03",
+    "tx 00 01 00 00 00 06 01 03 00 C8 00 03\ntx 01 03 00 C8 00 03 84 36",
+    "tx 01 03 00 C8 00 03 84 35\nrx 00 01 00 00 00 07 01 03 00 C8 00 03",
+    "68 05 05 68 81 82 5D 3B 3E D9 16\nE5",
+    "68 05 05 68 81 82 5D 3B 3E D9 16 E5 10 01 02 49 4C 16",
+    "10 01 02 49 4C 16\nE5\n10 5B 0A 65 16",
+    "10 5B 0A 65 16\n10 01 02 49 4C 16\n10 5B 0A 65 16",
+    "tx 01 03 00 C8 00 03 84 35\nE5",
+    "tx 10 01 02 49 4C 16\nrx E5",
+    "68 0F 0F 68 01 02 5D 41 00 20 34 00 00 00 00 00 00 00 00 F5 16\n68 0F 0F 68 02 01 08 71 00 20 34 00 00 05 DC 00 00 00 00 B4 16",
+    "S1: 41 00 23 00 00 00 00 00\nE1: 71 00 23 00 00 00 00 05",
+    "41 00 23 00 00 00 00 00\n71 00 23 00 00 00 00 05",
+    "52 00 23 00 00 05 00 00\n52 00 23 00 00 05 00 00",
+    "41 00 23 00 00 00 00 00\n41 00 23 00 00 00 00 00",
+    "41 54 2B 43 47 4D 49 0D",
+    "3A 30 31 30 33 30 30 43 38 30 30 30 33 33 31 0D 0A",
+    "3A 30 31 30 33 30 30 43 38 30 30 30 33 33 32 0D 0A",
+    "3A 31 31 30 33 0D 0A",
+    "30 31 30 33 30 30 43 38 30 30 30 33 38 34 33 35",
+    ":010300C8000331\n:01030600804\n:0103060080",
+    ":010300C8000332",
+    ":0163",
+    "AA 55 01 00 00 0B 11 04 00 01 20",
+    "7E A0 07 03 21 93 0F 01 7E",
+    "55 FF 00 07 03 00 00 EB 01 02",
+    "1, 3, 0, 200, 0, 3, 132, 53\n1, 3, 6, 0, 128, 66, 164, 241, 222, 176, 248",
+    "1 3 0 20 0 3 4 5",
+    "8: 01 03 00 C8 00 03 84 35 99",
+    "42ec148 151 010300",
+    "FA 01,03 00 C8 00 03,84 35",
+    "99 01 03 00 C8 00 03 84 35,99",
+    "a 01 00\nb 03 00\nc 00 00\nd C8 00\ne 00 00\nf 03 00\ng 84 00\nh 35 00",
+    "a 01 01\nb 03 03\nc 00 02\nd C8 00\ne 00 07\nf 03 F9\ng 84 86\nh 35",
+    "unit 01\nfunction 03\naddress 00 C8\ncount 00 03\nnote",
+    "unit 01 01\nfunction 03 03\nstart 00 02\nlow C8 00\nhigh 00 05\nlow 03",
+    "const a[] = {0x01, 0x03, 0x00, 0xC8, 0x00, 0x03, 0x84, 0x35, 0x00, 0x00, 0x00}",
+    "discarded: 01 03 00 C8 00 03",
+    "discarded 01 03 00 C8 00 03 84 36",
+    "0000  01 03 00 C8 00 03 84 36",
+    "0000  00 01 02 03 04 05 06 07 08 09 0A 0B 0C 0D 0E 0F\n0010  10 11 12 13 14 15 16 17 18 19 1A 1B 1C 1D 1E 1F",
+    "TX: 01 03 00 C8 00 03 84 35\nTX: 01 03 00 C8 00 03 84 35\nRX: 01 03 06 00 80 42 A4 F1 DE B0 F8",
+    "TX: 01 03 00 C8 00 03 84 35\nRX: 01 03 00 C8 00 03 84 35\nRX: 01 03 06 00 80 42 A4 F1 DE B0 F8",
+    "RX: 01 03 00 C8 00 03 84 35\nTX: 01 03 06 00 80 42 A4 F1 DE B0 F8",
+    "TX: 00 06 00 C8 00 03 48 24\nTX: 01 03 00 C8 00 03 84 35",
+    "10:00:00 TX: 01 03 00 C8 00 03 84 35\n10:00:01 TX: 02 03 00 C8 00 03 84 06\n10:00:02 RX: 01 03 06 00 80 42 A4 F1 DE B0 F8",
+    "10:00:00 COM1 TX: 01 03 00 C8 00 03 84 35\n10:00:01 COM2 TX: 01 03 00 C8 00 03 84 35\n10:00:02 COM1 RX: 01 03 06 00 80 42 A4 F1 DE B0 F8\n10:00:02 COM2 RX: 01 83 02 C0 F1",
+    "23:59:59.9 TX: 01 03 00 C8 00 03 84 35\n00:00:00.1 RX: 01 03 06 00 80 42 A4 F1 DE B0 F8",
+    "RX: 01 03 06 00 80 42 A4 F1 DE B0 F8\nRX: 01 03 06 00 80 42 A4 F1 DE B0 F8",
+    "so 11 42 01 02 03 ~~",
+    "so 55 06 04 22 07 00 01 8B C4 06 04 02 00 40 0D 00 66",
+    "so 06 04 22 07 00 01 8B C4 06 04 02 00 40 0D 00",
+    "tx: 06 04 22 07 00 01 8B C4\nrx: 06 04 02 00 40 0D 00 06 04 22 07 00 01 8B C4",
+    "rx: 06 04 02 00 40 0D 00 06 04 22 07 00 01 8B C4",
+    "tx: 06 04 22 07 00 01 8B C4\nrx: 06 04 02 00 40 0D\nrx: 00",
+    "discarded FA 07 01 02 03 ~~",
+    "discarded FA 07 ~~",
+    "tx: 01 06 00 C8 00 03 ~~\nand that\n01 06 00 C8 00 03 12 34",
+    "tx: 01 06 00 C8 00 03 ~~\nand that\n01 06 00 C8 00",
+    "discarded FA 63 01 02 ~~",
+    "rx: 68 09 09 68 02\nrx: 01 5D 01 02 03 04 05 06 75 16",
+    "rx: 00 09 00 00 00\nrx: 09 01 03 06 00 80 42 A4 F1 DE",
+    "rx: 00 09 00 00 00 09\nrx: 01 03 06 00 80 42 A4 F1 DE",
+    "rx: 68 09 09\nrx: 68 02 01 5D 01 02 03 04 05 06 75 16",
+    "rx: A2 01 02 5D 01\nrx: 02 03 04 05 06 07 08 84 16",
+    "rx: 10 01 02 5D\nrx: 60 16",
+    "tx: 01 03 00 C8 00 03 ~~\nrx: 55 01 03 06 00 80 42 A4 F1 DE",
+    "tx: 01 03 00 C8 00 03 ~~\nrx: 55 55 55 01 03 06 00 80 42 A4",
+    "so 11 42 ~~",
+    "so 11 42 01 ~~ 00",
+    "so 11 42 01 02 ~~ 00 00",
+    "so 11 80 01 02 ~~",
+    "so 11 00 01 02 ~~",
+    "so 01 03 00 C8 00 03 00 ~~",
+    "so 01 03 00 C8 00 ~~",
+    "so 01 03 06 00 80 42 A4 F1 DE ~~ 00",
+    "so 01 03 06 00 80 42 A4 F1 DE 01 ~~",
+    "so FF 01 03 00 C8 00 03 ~~",
+    "so 00 00 01 42 00 C8 ~~",
+    "so 00 01 42 00 C8 ~~",
+    "so FF 01 42 00 C8 00 ~~",
+    "so 00 00 00 01 42 00 C8 ~~",
+    "so 55 01 03 00 C8 00 03 ~~ 66 01 03 06 00 80 42 A4 F1 DE ~~",
+    "tx: 55 01 03 00 C8 00 03 ~~ 66 01 03 06 00 80 42 A4 F1 DE ~~",
+    "tx: 01 03 00 C8 00 03 ~~ 01 03 06 00 80 42",
+    "tx: 01 03 00 C8 00 03 ~~ 01 03 06 00 80 42 00 00 00",
+    "tx: 01 03 00 C8 00 03 ~~ 01 03 06 00 80 42 01 03 00 C8 00 03 ~~",
+    "tx: 01 03 00 C8 00 03 ~~ 02 03 06 00 80 42 01 03 00 C8 00 03 ~~",
+    "tx: 01 03 00 C8 00 03 ~~\nrx: 55 01 03 06 00 80 42 A4 F1 DE ~~",
+    "tx: 01 03 00 C8 00 03 ~~\nrx: 55 01 03 06 00 80 42 A4 F1",
+    "tx: 01 03 00 C8 00 03 ~~\nrx: 01 03 06 00 80\nx 99 98 97 96 y\nrx: 42 A4 F1 DE B0 F8",
+    "tx: 01 03 00 C8 00 03 ~~\nrx: 01 03 06 00 80\nq1 99 98 97 96 y\nq2 99 98 97 95 y\nq3 99 98 97 94 y\nq4 99 98 97 93 y\n\
+     q5 99 98 97 92 y\nq6 99 98 97 91 y\nq7 99 98 97 90 y\nq8 99 98 97 89 y\nrx: 42 A4 F1 DE B0 F8",
+    "tx: 01 03 00 C8 00 03 ~~\nrx: 01 03 06 00 80\nq1 99 98 97 96 y\nq2 99 98 97 95 y\nq3 99 98 97 94 y\nq4 99 98 97 93 y\n\
+     q5 99 98 97 92 y\nq6 99 98 97 91 y\nq7 99 98 97 90 y\nq8 99 98 97 89 y\nq9 99 98 97 88 y\nrx: 42 A4 F1 DE B0 F8",
+    "10:00:00 rx: 01 03 06 00 80\n10:00:01 rx: 42 A4 F1 DE B0 F8",
+    "10:00:00.0 rx: 01 03 06 00 80\n10:00:01.1 rx: 42 A4 F1 DE B0 F8",
+    "10:00:01 rx: 01 03 06 00 80\n10:00:00 rx: 42 A4 F1 DE B0 F8",
+    "rx: 01 03 06 00 80\ntx: 42 A4 F1 DE B0 F8",
+    "rx: 01 03 06 00 80\nx: 42 A4 F1 DE B0 F8",
+    "rx: 01 03 06 00 80\n42 A4 F1 DE B0 F8",
+    "rx: 01 03 06 00 80 42 A4 F1 DE\nrx: B0 F8",
+    "rx: 01 03 06 00 80 42 A4 F1 DE\nthe end is: B0 F8",
+    "rx: 01 03 06 00 80 42 A4 F1 DE\nleftover: B0 F8",
+    "rx: 01 03 06 00 80\nrx: 42 A4 F1 DE B0 F8 01 03 06\nrx: 00 80 42 A4 F1 DE B0 F8",
+    "rx: 00 01 00 00 00 09 01 03\nrx: 06 00 80 42 A4 F1 DE",
+    "rx: 00 01 00 00 00\nrx: 09 01 03 06 00 80 42 A4 F1 DE",
+    "rx: 68 05 05 68 81\nrx: 82 5D 3B 3E D9 16",
+    "rx: 68 05 05\nrx: 68 81 82 5D 3B 3E D9 16",
+    "rx: F8 03 06 00 80\nrx: 42 A4 F1 DE ~~",
+    "tx: 11 42 01 02 ~~\nrx: 11 42 01\nrx: 02 03 04",
+    "so 01 03 00 C8 00 03 ~~\nso 01 03 00 C8 00 03\nso 01 03 00 C8 00 04",
+    "so 01 03 00 C8 00 03 ~~\nso 01 03 00 C9 00 03 ~~\nso 01 03 00 CA 00 03 00 00\nso 77 88 99 AA",
+    "so 01 03 00 C8 00 03 ~~\nso 01 03 00 C9 00 03 ~~\nso F8 88 99 AA",
+    "so 01 03 00 C8 00 03 ~~\nso 01 03 00 C9 00 03 ~~\nso 01 88 99 AA",
+    "so 01 03 00 C8 00 03 ~~\nso 01 03 00 C9 00 03 ~~\nso F8 03 99 AA",
+    "so 01 03 00 C8 00 03 ~~\nso 01 03 00 C9 00 03 ~~\nso 01 03 99 AA ...",
+    "tx 00 01 00 00 00 06 01 03 00 C8 00 03\ntx 00 02 00 00 00 06 01 03 00 C9 00 03\ntx 01 03 99 AA",
+    "so 01 03 00 C8 00 03 ~~ by\nso 01 03 00 C9 00 03 ~~ by\nso 01 10 00 C8 00 02 04 00 01 00 02 by",
+    "so 01 03 00 C8 00 03 ~~\nas 01 03 06 00 80 42 A4 F1 DE ~~\nas 01 03 06 00 80 42 A4 F1 DF ~~\nas 01 03 06 00 80 42 A4 F1 D0",
+    "so 01 03 00 C8 00 03 ~~\nas 01 03 06 00 80 42 A4 F1 DE\nas 01 03 06 00 80 42 A4 F1 DF\nas 01 03 06 00 80 42 A4 F1 D0 ~~",
+    "TX 01 03 00 C8 00 03 ~~\nRX 01 03 06 00 80 42 A4 F1 DE ~~\nas 03 06 00 80 42",
+    "TX 01 03 00 C8 00 03 ~~\nRX 01 03 06 00 80 42 A4 F1 DE ~~\nRX 01 03 06 00 80 42 A4 F1",
+    "TX 01 03 00 C8 00 03 ~~\nRX 01 03 06 00 80 42 A4 F1 DE ~~\nRX 01 03 06 00 80 42 A4 F1 DE 01 03 06 00 80 42 A4 F1 DE B0 x",
+    "TX 01 03 00 C8 00 03 ~~\nTX 01 03 00 C8 00",
+    "TX 01 03 00 C8 00 03 ~~\nTX 01 03 00 C8",
+    "TX 01 03 00 C8 00 03 ~~\nx 01 03 00 C8 00 03 84",
+    "TX 01 06 00 C8 00 03 ~~\nRX 01 06 00 C8 00 03 ~~\nTX 01 06 00 C8 00 04 00 00\nRX 01 06 00 C8 00 04 ~~",
+    "so 63 03 00 C8 00 03 ~~ it\n1\n2\n3\n4\n5\nso 63 03 06 00 80 42 it",
+    "so 63 03 00 C8 00 03 it\nby 63 03 06 00 80 42 A4 F1 DE it",
+    "so 63 03 00 C8 00 03 it\nby 62 03 06 00 80 42 A4 F1 DE it",
+    "so 63 03 00 C8 00 03 it\nby 63 04 06 00 80 42 A4 F1 DE it",
+    "so 63 03 00 C8 00 03 it\nby 63 03 04 00 80 42 A4 it",
+    "COM1 so 63 03 00 C8 00 03 it\nCOM2 by 63 03 06 00 80 42 A4 F1 DE it",
+    "so 63 03 00 C8 00 03 ~~ it\nby 63 83 02 it",
+    "so 63 03 00 C8 00 03 ~~ it\nby 63 83 02 01 it",
+    "by 63 03 06 00 80 42 A4 F1 DE it\nso 63 03 00 C8 00 03 it",
+    "so 41 00 23 00 00 00 00 00 it\nby 71 00 23 00 00 00 00 05 it",
+    "so 41 00 23 00 00 00 00 00 it\nby 71 00 24 00 00 00 00 05 it",
+    "so 41 00 00 00 00 00 00 00 it\nby 71 00 00 00 00 00 00 05 it",
+    "so 00 01 00 00 00 06 63 03 00 C8 00 03 it\nby 00 01 00 00 00 08 63 03 06 00 80 42 A4 F1 DE it",
+    "so 00 01 00 00 00 06 63 03 00 C8 00 03 it\nby 00 02 00 00 00 08 63 03 06 00 80 42 A4 F1 DE it",
+    "so 10 5B 0A 65 16 it\nso 10 01 02 49 4C 16 it\nso 10 01 02 4A 4D 16 it",
+    "so 10 5B 0A 65 16 it\nso 10 5B 0B 66 16 it\nso 10 01 02 49 4C 16 it",
+    "so 0x63, 0x03, 0x00, 0xC8, 0x00, 0x03 it\nby 0x63, 0x03, 0x06, 0x00, 0x80, 0x42, 0xA4, 0xF1, 0xDE it",
+    "63 03 00 C8 00 03\n63 03 06 00 80 42 A4 F1 DE\n11 22 33 44\nhello",
+    "63 03 00 C8 00 03\n63 03 06 00 80 42 A4 F1 DE\n11 22 33 44\n55 66 77\n88 99 AA",
+    "hello\nyou\n63 03 00 C8 00 03",
+    "03 00 C8 00 03\n03 06 00 80 42 A4 F1 DE\n03 00 C8 00 03\n03 06 00 80 42 A4 F1 D0",
+    "03 00 C8 00 03\n01 03 00 C8 00 03 ~~",
+    "B7 A3 93\n00 0C 00 02 05 EB\n88 01 0A 0B 05 EB 00",
+    "41 00 23 00 00 00 00 00\n71 00 23 00 00 00 00 05\n41 00 23 01 00 00 00 00\n71 00 23 01 00 00 00 06",
+    "52 00 23 00 00 05 00 00\n52 00 23 00 00 05 00 00\n12 00 23 01 00 06 00 00\n12 00 23 01 00 06 00 00",
+    "41 00 23 00 00 00 00 00\nC1 00 23 00 06 03 00 00",
+    "x 01 03 00 C8 00 03 ~~ y\n| 01 | 01 |\n| 03 | 03 |\n| 00 | 00 |\n| C8 | C9 |\n| 00 | 00 |\n| 03 | 03 |\n| 84 | D5 |\n| 35 | F5 |",
+    "| 01 | 01 |\n| 03 | 03 |\n| 00 | 06 |\n| C8 | 00 |\n| 00 | 80 |\n| 03 | 42 |\n| z | A4 |\n| z | F1 |\n| z | DE |",
+];
+
+/// Puts the check of the bytes before it where `~~` stands.
+fn checked(text: &str) -> String {
+    let mut whole = String::new();
+    for (index, part) in text.split("~~").enumerate() {
+        if index > 0 {
+            let line = whole.rsplit('\n').next().unwrap_or_default();
+            let is_byte = |word: &&str| word.len() == 2 && word.bytes().all(|c| c.is_ascii_hexdigit());
+            let mut words: Vec<&str> =
+                line.split(' ').filter(|word| !word.is_empty()).rev().take_while(is_byte).collect();
+            words.reverse();
+            // What stands behind another check is a telegram of its own.
+            let own = bytes(&words.join(" "));
+            let from = (0..own.len())
+                .rev()
+                .find(|at| {
+                    *at >= 4
+                        && CRC_16_MODBUS.wire(&own[..at - 2])
+                            == u64::from(u16::from_be_bytes([own[at - 2], own[at - 1]]))
+                })
+                .unwrap_or(0);
+            let check = CRC_16_MODBUS.wire(&own[from..]) as u16;
+            write!(whole, "{}", hex(&check.to_be_bytes())).unwrap();
+        }
+        whole += part;
+    }
+    whole
+}
+
+/// The telegrams of small texts, with all that is known of each.
+#[test]
+fn what_is_found_in_texts() {
+    let mut table = String::new();
+    for text in CONVERSATIONS.iter().chain(SPELLINGS).chain(SURROUNDINGS).chain(BLOCKS) {
+        let text = checked(text);
+        writeln!(table, "{}", text.escape_debug()).unwrap();
+        found(&mut table, text.as_bytes());
+    }
+    assert_table("found", &table);
+}
+
+/// The same for what people paste.
+#[test]
+fn what_is_found_in_posts() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/posts");
+    let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.retain(|path| path.extension().is_none_or(|extension| extension != "json"));
+    files.sort();
+    let mut table = String::new();
+    for file in files {
+        writeln!(table, "{}", file.file_name().unwrap().to_string_lossy()).unwrap();
+        found(&mut table, &std::fs::read(&file).unwrap());
+    }
+    assert_table("found_in_posts", &table);
+}
+
+fn found(table: &mut String, text: &[u8]) {
+    let log = match Log::read(text, &Reading::default(), Options::default()) {
+        Ok(log) => log,
+        Err(why) => return writeln!(table, "    {why:?}").unwrap(),
+    };
+    for entry in log.entries() {
+        let mut said = format!(
+            "{} at {}+{}: {} | {} {:?} {:?}",
+            entry.line,
+            entry.offset,
+            entry.skip,
+            hex(&log.bytes(&text, &entry)),
+            entry.protocol().key,
+            entry.verdict,
+            entry.direction
+        );
+        if entry.role != Role::Plain {
+            write!(said, " {:?}", entry.role).unwrap();
+        }
+        if let Some(partner) = entry.partner() {
+            write!(said, ", with {partner}").unwrap();
+        }
+        let unit = entry.unit.map_or("no unit".to_owned(), |unit| format!("unit {unit}"));
+        write!(said, ", {unit}, function {}, sides {:?}", entry.function, entry.sides()).unwrap();
+        if let Some(time) = entry.time() {
+            write!(said, ", time {time}").unwrap();
+        }
+        if entry.is_said() {
+            said += ", said";
+        }
+        if let Some(port) = log.port_name(entry.port) {
+            write!(said, ", port {port}").unwrap();
+        }
+        writeln!(table, "    {said}").unwrap();
+    }
+    if !log.unread().is_empty() {
+        let unread: Vec<String> = log.unread().iter().map(|(line, at)| format!("{line} at {at}")).collect();
+        writeln!(table, "    unread {}", unread.join(", ")).unwrap();
+    }
+}
