@@ -335,7 +335,10 @@ pub fn LaterPiece(piece: Piece) -> impl IntoView {
         later.load(part);
     }
     move || {
-        match later.stage(part).get() {
+        let stage = later.stage(part);
+        // What is there stays there: a piece that comes and goes with each keystroke need not be told.
+        let there = Some(stage.get_untracked()).filter(|stage| matches!(stage, Stage::There(_)));
+        match there.unwrap_or_else(|| stage.get()) {
         Stage::There(content) => (content.draw)(piece.clone()),
         // Nor is it waited for.
         _ if !piece.is_view() => ().into_any(),

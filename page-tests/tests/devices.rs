@@ -270,6 +270,8 @@ async fn units_have_devices_of_their_own() -> Result {
     page.until(".units", "A unit is a number from 1 to 247.").await?;
     page.fill_in("Another unit", "9").await?;
     page.choose_in("Device of another unit", "KEB COMBIVERT F5 on Modbus").await?;
+    let focus = page.value("return document.activeElement.getAttribute('aria-label')").await?;
+    assert_eq!(focus, json!("Another unit"), "the next one can be named at once");
     page.until(CHANGES, "Unit 9 is KEB COMBIVERT F5 on Modbus.").await?;
     assert_eq!(page.accessibility().await?, [""; 0]);
     page.picture("devices-units").await?;

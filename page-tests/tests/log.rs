@@ -426,6 +426,67 @@ async fn what_is_chosen_is_exported() -> Result {
     page.close().await
 }
 
+/// What somebody opened by keyboard is gone on with by keyboard.
+#[tokio::test(flavor = "multi_thread")]
+async fn the_keyboard_goes_on_in_a_log() -> Result {
+    const FOCUS: &str =
+        "return (document.activeElement.innerText || document.activeElement.type || '').trim()";
+    let page = Page::open(DESKTOP, false).await?;
+    page.driver.execute("document.querySelectorAll('.first-examples button')[1].focus()", vec![]).await?;
+    page.press(Key::Enter + "").await?;
+    page.wait_for(".rows .row").await?;
+    page.press(Key::Tab + "").await?;
+    assert_eq!(page.value(FOCUS).await?, json!("Edit text"), "the next is the first thing of the log");
+    // The text is edited where the cursor is then, and folded away again.
+    page.press(Key::Enter + "").await?;
+    page.wait_for(".editor textarea").await?;
+    assert_eq!(page.value(FOCUS).await?, json!("textarea"));
+    page.click_text(".file-bar button", "Hide text").await?;
+    page.until(".file-bar button", "Edit text").await?;
+    assert_eq!(page.count(".editor").await?, 0);
+    page.press("/").await?;
+    assert_eq!(page.value(FOCUS).await?, json!("search"));
+    page.close().await
+}
+
+/// The list and the telegram beside it keep their height where the window has little.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_log_in_a_low_window() -> Result {
+    let page = Page::open((1366, 650), false).await?;
+    page.paste(&log(50)).await?;
+    page.wait_for(".rows .row").await?;
+    let heights = "const height = css => document.querySelector(css).clientHeight; \
+        const foot = document.querySelector('.foot').getBoundingClientRect().top; \
+        return [height('.list'), height('.detail'), foot - document.querySelector('.panes').getBoundingClientRect().bottom]";
+    for label in ["Edit text", "Hide text"] {
+        let [list, detail, gap]: [f64; 3] =
+            serde_json::from_value(page.value(heights).await?).expect("numbers");
+        assert!(
+            list >= 320.0 && detail >= 320.0 && gap >= 0.0,
+            "list {list}, detail {detail}, before the foot {gap}"
+        );
+        page.click_text(".file-bar button", label).await?;
+    }
+    page.close().await
+}
+
+/// On a phone the list stands below the story: what leads to it brings it into sight.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_finding_leads_to_the_list_on_a_phone() -> Result {
+    for button in [".findings button", ".units button"] {
+        let page = Page::open(PHONE, false).await?;
+        page.driver.execute("document.querySelectorAll('.first-examples button')[1].click()", vec![]).await?;
+        page.wait_for(".rows .row").await?;
+        page.click(button).await?;
+        page.wait_for(".filters .chip").await?;
+        page.settle().await?;
+        let top = page.value("return document.querySelector('.list').getBoundingClientRect().top").await?;
+        assert!(top.as_f64().is_some_and(|top| (0.0..500.0).contains(&top)), "{button}: {top}");
+        page.close().await?;
+    }
+    Ok(())
+}
+
 /// Measures and prints: a log of 1,000 lines that somebody types in.
 #[tokio::test(flavor = "multi_thread")]
 async fn a_keystroke_in_a_log() -> Result {

@@ -1,7 +1,7 @@
 //! Practice: a question of each kind answered wrong and right, the same link, paper, and results of a group.
 
 use buslens_trainer::practice::{Kind, QUESTIONS, Round, Seed};
-use buslens_trainer::result::RoundResult;
+use buslens_trainer::result::{About, RoundResult};
 use buslens_trainer::{Answer, Expected, Task, Verdict, grade};
 use page_tests::{DESKTOP, NARROW, PHONE, Page, Result};
 use serde_json::json;
@@ -134,7 +134,7 @@ async fn practice_ends_with_a_code() -> Result {
     }
     page.until(".done .headline", "4 of 5 right at the first answer.").await?;
     let code = page.text(".code output").await?;
-    assert_eq!(RoundResult::of(&code), Ok(RoundResult { round, right: 4 }));
+    assert_eq!(RoundResult::of(&code), Ok(RoundResult { about: About::Round(round), right: 4 }));
     assert_eq!(page.accessibility().await?, [""; 0]);
     page.picture("practice-done-phone-dark").await?;
     // What came of it outlasts a reload, and the same link asks the same.

@@ -3,6 +3,7 @@
 use leptos::ev::KeyboardEvent;
 use leptos::html;
 use leptos::prelude::*;
+use leptos::reactive::graph::Source;
 
 use super::roving;
 use buslens::field::{Field, Numbering, Role, Severity, Span, Value, leaves};
@@ -25,6 +26,14 @@ pub struct Lights {
 impl Lights {
     pub fn new() -> Self {
         Self { pointed: RwSignal::new(None), chosen: RwSignal::new(None) }
+    }
+
+    /// A signal keeps what listened to it and is gone (reactive_graph 0.2): here only what is still there comes back.
+    fn forget(&self) {
+        self.pointed.notify();
+        self.pointed.clear_subscribers();
+        self.chosen.notify();
+        self.chosen.clear_subscribers();
     }
 
     pub fn clear(&self) {
@@ -62,6 +71,9 @@ pub struct Block {
     pub bytes: Vec<u8>,
 }
 
+/// After how many telegrams the blocks of those that are gone are forgotten.
+const LIGHTS_LAST: u32 = 32;
+
 /// More bytes than a telegram can have are not worth a cell each.
 const MOST: usize = 300;
 
@@ -98,7 +110,12 @@ pub fn ByteStrip(
             choose(at);
         }
     };
+    let drawn = StoredValue::new(0_u32);
     let shown = move || {
+        drawn.update_value(|drawn| *drawn += 1);
+        if drawn.get_value().is_multiple_of(LIGHTS_LAST) {
+            lights.forget();
+        }
         blocks.with(|all| all.iter().filter(|block| block.span.from < MOST).cloned().collect::<Vec<_>>())
     };
     let block = move |block: Block| {

@@ -11,7 +11,7 @@ use super::roving;
 
 /// What an entry knows of its menu.
 #[derive(Clone, Copy)]
-struct Opened(RwSignal<bool>);
+struct Close(Callback<()>);
 
 /// The button and its list, of which `children` are the [entries](MenuItem).
 #[component]
@@ -101,7 +101,7 @@ pub fn Menu(
                 {(!icon_only).then(|| view! { <Icon glyph=Glyph::ChevronDown /> })}
             </button>
             // Each menu of the page has a context of its own.
-            <Provider value=Opened(open)>
+            <Provider value=Close(Callback::new(move |()| close()))>
                 <Show when=move || open.get()>
                     <div node_ref=list role="menu" aria-label=move || label.get()>
                         {children()}
@@ -117,9 +117,10 @@ const ENTRIES: &str = "[role=menuitem]";
 /// One thing to do.
 #[component]
 pub fn MenuItem(on_choose: Callback<()>, children: Children) -> impl IntoView {
-    let Opened(open) = expect_context();
+    let Close(close) = expect_context();
     let choose = move |_| {
-        open.set(false);
+        // First, so that a dialog that it opens gives the focus back to the menu.
+        close.run(());
         on_choose.run(());
     };
     view! {
@@ -132,9 +133,9 @@ pub fn MenuItem(on_choose: Callback<()>, children: Children) -> impl IntoView {
 /// One place to go to.
 #[component]
 pub fn MenuLink(href: &'static str, children: Children) -> impl IntoView {
-    let Opened(open) = expect_context();
+    let Close(close) = expect_context();
     view! {
-        <a href=href role="menuitem" tabindex="-1" on:click=move |_| open.set(false)>
+        <a href=href role="menuitem" tabindex="-1" on:click=move |_| close.run(())>
             {children()}
         </a>
     }

@@ -3,8 +3,6 @@
 use leptos::ev::{self, KeyboardEvent};
 use leptos::prelude::*;
 use leptos::task::spawn_local;
-use leptos::wasm_bindgen::JsCast;
-use web_sys::HtmlElement;
 
 use super::copy_button::copy;
 use super::dialog::Dialog;
@@ -15,7 +13,7 @@ use super::toast::Toasts;
 use crate::address::Address;
 use crate::browser::edition::{Edition, edition};
 use crate::browser::storage;
-use crate::browser::typing::is_typed_into;
+use crate::browser::typing::{go_to_field, is_typed_into};
 
 /// Where the theme is kept. The boot script reads it, too, so that the page comes up in the right colours.
 const THEME: &str = "theme";
@@ -102,12 +100,7 @@ fn Keys() -> impl IntoView {
             "?" => open.set(true),
             "/" => {
                 event.prevent_default();
-                // The first field of a view is what somebody types into first.
-                let field =
-                    document().query_selector("main textarea, main input[type=search], main input").ok();
-                if let Some(field) = field.flatten().and_then(|field| field.dyn_into::<HtmlElement>().ok()) {
-                    let _ = field.focus();
-                }
+                go_to_field();
             }
             _ => {}
         }

@@ -10,7 +10,8 @@
 //! | [`practice`] | tasks without end, made of a seed; [`random`] numbers for them |
 //! | [`result`] | what came of a round, in eight letters |
 //! | [`course`] | tasks for Moodle |
-//! | [`fault`] | telegrams with a fault in them, for others to find |
+//! | [`fault`] | telegrams with a fault in them, for others to find; [`log`]s the same |
+//! | [`set`] | tasks that somebody put together, as a text |
 //!
 //! It is made of what [`buslens::tool`] offers, in the words of [`buslens::field`], and so it can never be wrong
 //! about a byte that the page shows.
@@ -20,10 +21,12 @@ pub mod course;
 pub mod fault;
 pub mod grade;
 pub mod lesson;
+pub mod log;
 pub mod notation;
 pub mod practice;
 pub mod random;
 pub mod result;
+pub mod set;
 pub mod task;
 
 pub use grade::{Answer, Remark, Verdict, grade};

@@ -2,14 +2,27 @@
 //!
 //! A code has 40 bits: the generator's version (4), kind (3), level (2), seed (20), questions right at the first
 //! answer (3), and a CRC over these 32 (8), which notices every mistyped letter and nearly every pair of letters
-//! that changed places. It is no secret, and proves nothing: whoever wants to make one up can.
+//! that changed places. Of a set the kind is 7, the seed what tells its text apart, and level and questions make one
+//! number of 5 bits. It is no secret, and proves nothing: whoever wants to make one up can.
 
 use crate::practice::{Kind, LETTERS, QUESTIONS, Round, Seed, VERSION, letter_number};
+use crate::set::MOST;
 
-/// What came of a round.
+/// The number that stands for a set where a round has its kind.
+const SET: u32 = 7;
+
+/// What was asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum About {
+    Round(Round),
+    /// The set whose text has this [`seed`](crate::set::seed).
+    Set(Seed),
+}
+
+/// What came of a round or a set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RoundResult {
-    pub round: Round,
+    pub about: About,
     /// How many questions were right at the first answer.
     pub right: usize,
 }
@@ -39,12 +52,16 @@ impl NoCode {
 impl RoundResult {
     /// The eight letters, in two groups: `0C3A-K7QM`.
     pub fn code(&self) -> String {
-        let Round { kind, level, seed } = self.round;
-        let word = u32::from(VERSION) << 28
-            | (kind as u32) << 25
-            | u32::from(level & 3) << 23
-            | seed.number() << 3
-            | self.right.min(QUESTIONS) as u32;
+        let (kind, level, seed, right) = match self.about {
+            About::Round(Round { kind, level, seed }) => {
+                (kind as u32, u32::from(level & 3), seed, self.right.min(QUESTIONS) as u32)
+            }
+            About::Set(seed) => {
+                let right = self.right.min(MOST) as u32;
+                (SET, right >> 3, seed, right & 7)
+            }
+        };
+        let word = u32::from(VERSION) << 28 | kind << 25 | level << 23 | seed.number() << 3 | right;
         let bits = u64::from(word) << 8 | u64::from(check(word));
         let letter = |at: u32| char::from(LETTERS[(bits >> (5 * at) & 31) as usize]);
         (0..8).rev().flat_map(|at| [Some(letter(at)), (at == 4).then_some('-')]).flatten().collect()
@@ -66,9 +83,12 @@ impl RoundResult {
         if version > VERSION {
             return Err(NoCode::Newer);
         }
+        if version == VERSION && kind == SET as usize {
+            return Ok(Self { about: About::Set(seed), right: usize::from(level) << 3 | right });
+        }
         match Kind::ALL.get(kind) {
             Some(kind) if version == VERSION && level > 0 && right <= QUESTIONS => {
-                Ok(Self { round: Round { kind: *kind, level, seed }, right })
+                Ok(Self { about: About::Round(Round { kind: *kind, level, seed }), right })
             }
             _ => Err(NoCode::Mistyped),
         }
@@ -132,13 +152,17 @@ pub fn csv(lines: &[Line]) -> String {
     let mut text = "name,code,kind,level,seed,right,of,problem\n".to_owned();
     for Line { name, code, result } in lines {
         text += &match result {
-            Ok(RoundResult { round, right }) => format!(
+            Ok(RoundResult { about: About::Round(round), right }) => format!(
                 "{},{code},{},{},{},{right},{QUESTIONS},\n",
                 quoted(name),
                 round.kind.key(),
                 round.level,
                 round.seed
             ),
+            // How many there were, only the set's text says.
+            Ok(RoundResult { about: About::Set(seed), right }) => {
+                format!("{},{code},set,,{seed},{right},,\n", quoted(name))
+            }
             Err(problem) => {
                 format!("{},{},,,,,,{}\n", quoted(name), quoted(code), quoted(problem.sentence()))
             }
@@ -152,7 +176,7 @@ mod tests {
     use super::*;
 
     fn result(kind: Kind, level: u8, seed: u64, right: usize) -> RoundResult {
-        RoundResult { round: Round { kind, level, seed: Seed::new(seed) }, right }
+        RoundResult { about: About::Round(Round { kind, level, seed: Seed::new(seed) }), right }
     }
 
     #[test]
@@ -167,6 +191,14 @@ mod tests {
                     assert_eq!(RoundResult::of(&code.to_lowercase().replace('-', " ")), Ok(one));
                 }
             }
+        }
+    }
+
+    #[test]
+    fn sets_have_codes_too() {
+        for right in 0..=MOST {
+            let one = RoundResult { about: About::Set(Seed::new(99_999 * right as u64 + 7)), right };
+            assert_eq!(RoundResult::of(&one.code()), Ok(one));
         }
     }
 

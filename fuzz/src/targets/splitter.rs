@@ -36,7 +36,7 @@ fn run(data: &[u8]) {
         length: (flags & 8 != 0).then_some(length.into()),
     });
     let begins = |bytes, last| {
-        let place = Place { bytes, last, in_step: flags & 1 != 0, waiting };
+        let place = Place { bytes, last, in_step: flags & 1 != 0, waiting: waiting.as_ref() };
         splitter.begins(protocol, place)
     };
     let whole = begins(bytes, false);

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use leptos::html;
 use leptos::prelude::*;
 
 use super::Remove;
@@ -12,7 +13,7 @@ use buslens::field::{in_order, many};
 use buslens::tool::{PROFILES, Profile, proposals};
 
 /// A unit, and what is known of it.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 struct Row {
     unit: u8,
     /// The key of the device that a person named.
@@ -50,8 +51,10 @@ pub fn Units() -> impl IntoView {
         };
         units.into_iter().map(row).collect::<Vec<_>>()
     });
+    let units = Memo::new(move |_| rows.with(|rows| rows.iter().map(|row| row.unit).collect::<Vec<_>>()));
     let sentence = move || rows.with(|rows| sentence(rows));
     let typed = RwSignal::new(String::new());
+    let field = NodeRef::<html::Input>::new();
     let wrong = Memo::new(move |_| {
         let typed = typed.get();
         (!typed.trim().is_empty() && number(&typed).is_none()).then_some("A unit is a number from 1 to 247.")
@@ -60,6 +63,10 @@ pub fn Units() -> impl IntoView {
         let Some((unit, device)) = number(&typed.get_untracked()).zip(Profile::of(&key)) else { return };
         typed.set(String::new());
         state.name_unit(unit, Some(device));
+        // The list of devices waits for the next unit.
+        if let Some(field) = field.get_untracked() {
+            let _ = field.focus();
+        }
     };
     view! {
         <section class="units" aria-labelledby="devices-units">
@@ -80,10 +87,15 @@ pub fn Units() -> impl IntoView {
                     </tr>
                 </thead>
                 <tbody>
-                    <For each=move || rows.get() key=|row| row.clone() children=move |row| view! { <UnitRow row /> } />
+                    <For
+                        each=move || units.get()
+                        key=|unit| *unit
+                        children=move |unit| view! { <UnitRow unit rows /> }
+                    />
                     <tr class="new">
                         <th scope="row">
                             <input
+                                node_ref=field
                                 class="input"
                                 inputmode="numeric"
                                 autocomplete="off"
@@ -116,28 +128,33 @@ pub fn Units() -> impl IntoView {
 }
 
 /// All devices as options; which of them is chosen.
-fn devices(is_chosen: impl Fn(&'static str) -> bool) -> Vec<AnyView> {
+fn devices(is_chosen: impl Fn(&'static str) -> bool + Copy + Send + 'static) -> Vec<AnyView> {
     let option = |profile: &&'static Profile| {
-        let chosen = is_chosen(profile.key);
-        view! { <option value=profile.key prop:selected=chosen>{profile.label}</option> }.into_any()
+        let key = profile.key;
+        view! { <option value=key prop:selected=move || is_chosen(key)>{profile.label}</option> }.into_any()
     };
     PROFILES.iter().map(option).collect()
 }
 
 #[component]
-fn UnitRow(row: Row) -> impl IntoView {
+fn UnitRow(unit: u8, rows: Memo<Vec<Row>>) -> impl IntoView {
     let state = expect_context::<DeviceSettings>();
-    let Row { unit, named, proposed, seen } = row;
+    let row = Memo::new(move |_| rows.with(|rows| rows.iter().find(|row| row.unit == unit).cloned()));
+    let named = Memo::new(move |_| row.with(|row| row.as_ref()?.named));
     let choose = move |key: &str| state.name_unit(unit, Profile::of(key));
-    let why = match (named, &proposed) {
-        (Some(_), _) if seen => "chosen by you; Read shows telegrams of it".to_owned(),
-        (Some(_), _) => "chosen by you".to_owned(),
-        (None, Some((_, why))) => why.clone(),
-        (None, None) => "Read shows telegrams of it".to_owned(),
+    let why = move || {
+        let Row { named, proposed, seen, .. } = row.get()?;
+        Some(match (named, proposed) {
+            (Some(_), _) if seen => "chosen by you; Read shows telegrams of it".to_owned(),
+            (Some(_), _) => "chosen by you".to_owned(),
+            (None, Some((_, why))) => why,
+            (None, None) => "Read shows telegrams of it".to_owned(),
+        })
     };
-    let take = proposed.filter(|_| named.is_none()).map(|(key, _)| {
+    let take = move || {
+        let (key, _) = row.get().filter(|row| row.named.is_none())?.proposed?;
         let label = Profile::of(key).map_or(key, |profile| profile.label);
-        view! {
+        Some(view! {
             <button
                 type="button"
                 class="button low"
@@ -146,8 +163,9 @@ fn UnitRow(row: Row) -> impl IntoView {
             >
                 "Use it"
             </button>
-        }
-    });
+        })
+    };
+    let forget = Callback::new(move |()| state.name_unit(unit, None));
     view! {
         <tr>
             <th scope="row">{unit}</th>
@@ -157,19 +175,17 @@ fn UnitRow(row: Row) -> impl IntoView {
                     aria-label=format!("Device of unit {unit}")
                     on:change=move |event| choose(&event_target_value(&event))
                 >
-                    <option value="" prop:selected=named.is_none()>
+                    <option value="" prop:selected=move || named.get().is_none()>
                         "not known"
                     </option>
-                    {devices(move |key| named == Some(key))}
+                    {devices(move |key| named.get() == Some(key))}
                 </select>
             </td>
             <td class="why">{why} " " {take}</td>
             <td>
-                {named
-                    .map(|_| {
-                        let forget = Callback::new(move |()| state.name_unit(unit, None));
-                        view! { <Remove what=format!("unit {unit}") on_remove=forget /> }
-                    })}
+                <Show when=move || named.get().is_some()>
+                    <Remove what=format!("unit {unit}") on_remove=forget />
+                </Show>
             </td>
         </tr>
     }

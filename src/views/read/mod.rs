@@ -15,7 +15,7 @@ mod times;
 use leptos::ev;
 use leptos::prelude::*;
 
-use crate::browser::typing::is_typed_into;
+use crate::browser::typing::{find_focus, is_typed_into};
 use crate::components::icon::{Glyph, Icon};
 use crate::later::{CouldNotLoad, Later, LaterPiece, Part, Piece};
 use editor::Editor;
@@ -44,6 +44,14 @@ pub fn Read() -> impl IntoView {
         }
     });
     on_cleanup(move || pasted.remove());
+    // A change of what is shown takes away the control that made it.
+    Effect::new(move |before: Option<_>| {
+        let mode = read.mode();
+        if before.is_some_and(|before| before != mode) {
+            request_animation_frame(find_focus);
+        }
+        mode
+    });
     let has_editor = Memo::new(move |_| read.mode() != Mode::Log || read.editing.get());
     let starts = Memo::new(move |_| read.mode() == Mode::Start);
     let is_empty = Memo::new(move |_| read.report().telegrams.is_empty());

@@ -23,7 +23,8 @@
 //! | in brackets of its own; marked as bytes; a row of a dump; words of the trade | 3; 2; 3; 3 |
 //! | a number beside it says its length | 6 |
 //! | called left over or thrown away | −6 |
-//! | it fills an array of a program, whose brackets, marks and size say nothing | −2 |
+//! | it is of an array of a program, whose brackets, marks and size say nothing | −2 |
+//! | its numbers have two bytes and a mark each, as registers and addresses are written | −8 |
 //! | telegrams stand in the same place of other lines; what stands there is none | up to 8; −4 |
 //! | the same unit and function were seen; only telegrams of another kind were | 4; −8 |
 //! | it answers a request, or is answered | 12 |
@@ -35,7 +36,7 @@ use crate::frame::{
     Protocol, Verdict, modbus_ascii, modbus_pdu, modbus_rtu, modbus_tcp, modbus_unchecked, profibus_fdl,
 };
 use crate::modbus::EXCEPTION;
-use crate::walk::CRC_16_MODBUS;
+use crate::walk::{CRC_16_MODBUS, crc_residue};
 
 /// What bytes without a proof could be.
 #[derive(Clone, Copy, Debug)]
@@ -78,7 +79,7 @@ pub fn threshold(pieces: usize) -> i32 {
 pub fn place(facts: &Facts) -> i32 {
     let of = |fact: bool, bits: i32| if fact { bits } else { 0 };
     if facts.array {
-        return of(facts.said, 4) + of(facts.of_telegrams, 3) - 2;
+        return of(facts.said, 4) + of(facts.of_telegrams, 3) + of(facts.words, -8) - 2;
     }
     of(facts.bare, 4)
         + of(facts.said, 4)
@@ -89,6 +90,7 @@ pub fn place(facts: &Facts) -> i32 {
         + of(facts.of_telegrams, 3)
         + of(facts.counted, 6)
         + of(facts.of_leftovers, -6)
+        + of(facts.words, -8)
 }
 
 /// What others say that stand in the same way in their lines: of so many pieces some were proven, and some
@@ -261,6 +263,13 @@ fn cut(bytes: &[u8], splitter: &Splitter, waiting: Option<Waiting>) -> Option<Re
         let bits = unit(first) + function(code) + 8 + CUT;
         return is_cut(bytes, missing, false).then(|| without_check(0, bits, true));
     }
+    // Its check has begun.
+    if let (Some(1), [_, asked @ .., _]) = (request.and_then(|length| length.checked_sub(bytes.len())), bytes)
+        && is_cut(bytes, 1, false)
+    {
+        let bits = unit(first) + structure(asked, splitter)? + 8 + CUT;
+        return Some(without_check(0, bits, true));
+    }
     // Nobody answers from the address of all.
     if first == 0 {
         return None;
@@ -278,11 +287,13 @@ fn cut(bytes: &[u8], splitter: &Splitter, waiting: Option<Waiting>) -> Option<Re
 /// Whether so many bytes are missing at the end of a telegram, and not somewhere within it: where most of the
 /// check is there, it tells; so does a byte too many in front, which pushed the last one out.
 fn is_cut(bytes: &[u8], missing: usize, stray: bool) -> bool {
-    let last_tells = || {
-        let (last, covered) = bytes.split_last()?;
-        Some(CRC_16_MODBUS.wire(covered) >> 8 == u64::from(*last))
-    };
-    stray || missing > 2 || (missing == 1 && last_tells() == Some(true))
+    stray || missing > 2 || (missing == 1 && begins_check(bytes))
+}
+
+/// Whether the last byte is the first one of the check of those before it, and not the second one of a check.
+pub fn begins_check(bytes: &[u8]) -> bool {
+    let [covered @ .., last] = bytes else { return false };
+    CRC_16_MODBUS.wire(covered) >> 8 == u64::from(*last) && crc_residue(bytes) != 0
 }
 
 /// A frame of Modbus TCP whose length is wrong.

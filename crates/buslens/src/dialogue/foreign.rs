@@ -1,6 +1,8 @@
 //! Protocols that are not read here but come in the same logs: named, so that nobody takes them for Modbus or
 //! PROFIBUS.
 
+use crate::frame::profibus_fdl::Fdl;
+
 /// A protocol that is only named.
 #[derive(Debug)]
 pub struct Foreign {
@@ -30,6 +32,7 @@ pub static FOREIGN: &[Foreign] = &[
     Foreign::certain("M-Bus", is_meter_bus),
     Foreign::certain("DL/T 645", is_dlt_645),
     Foreign::certain("HDLC, as DLMS has it", is_hdlc),
+    Foreign::certain("IEC 60870-5-101 or -103", is_telecontrol),
 ];
 
 /// The place of FT1.2 in [`FOREIGN`]: the only one whose frames also pass as PROFIBUS.
@@ -54,6 +57,20 @@ fn is_meter_bus(bytes: &[u8]) -> bool {
         && covered.iter().fold(0_u8, |sum, byte| sum.wrapping_add(*byte)) == *sum
         && matches!(control, 0x08 | 0x18 | 0x28 | 0x38 | 0x53 | 0x73 | 0x5B | 0x7B)
         && matches!(ci, 0x50..=0x52 | 0x5A | 0x5B | 0x70..=0x72 | 0x78 | 0x7A | 0xB8..=0xBF)
+}
+
+/// The long frame of FT1.2 with a control field of its own, and behind the address what PROFIBUS's frame control
+/// cannot be: it has no such function, or none that carries data.
+///
+/// Source: IEC 60870-5-1, section 6.2.4.2; IEC 60870-5-2, section 6.1.2.
+fn is_telecontrol(bytes: &[u8]) -> bool {
+    let [0x68, length, again, 0x68, covered @ .., sum, 0x16] = bytes else { return false };
+    let [control, _, next, _, ..] = covered else { return false };
+    length == again
+        && covered.len() == usize::from(*length)
+        && covered.iter().fold(0_u8, |sum, byte| sum.wrapping_add(*byte)) == *sum
+        && matches!(control & 0x4F, 0x43 | 0x44 | 0x08)
+        && !Fdl::carries_data(*next)
 }
 
 /// FEh up to a few times; 68h, address (6), 68h, control, length, data, sum, 16h.
@@ -152,6 +169,13 @@ mod tests {
         // SNRM of a client to a meter.
         assert_eq!(named(&bytes("7E A0 07 03 21 93 0F 01 7E")), Some("HDLC, as DLMS has it"));
         assert_eq!(named(&bytes("7E A0 07 03 21 93 0F 02 7E")), None);
+        let interrogation = "68 0B 0B 68 53 05 00 64 01 06 05 00 00 00 14 DC 16";
+        assert_eq!(named(&bytes(interrogation)), Some("IEC 60870-5-101 or -103"));
+        assert_eq!(
+            named(&bytes("68 08 08 68 73 05 08 04 81 09 05 14 27 16")),
+            None,
+            "a response of PROFIBUS"
+        );
         assert_eq!(named(&[1, 3, 0, 200, 0, 3, 0x84, 0x35]), None);
         assert_eq!(named(&[0x10, 2, 1, 0x49, 0x4C, 0x16]), None, "PROFIBUS");
     }

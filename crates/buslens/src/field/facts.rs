@@ -15,8 +15,10 @@ pub struct Facts {
     pub labelled: bool,
     /// It stands in brackets or quotes of its own.
     pub wrapped: bool,
-    /// It fills an array in the source of a program.
+    /// It is, or is of, an array in the source of a program.
     pub array: bool,
+    /// Its numbers have two bytes and a mark each: `0x0102, 0x0304`.
+    pub words: bool,
     /// Commas stand between its numbers.
     pub listed: bool,
     /// Its numbers have a prefix, an h, or are escapes: certainly bytes.

@@ -135,6 +135,18 @@ impl Fdl {
         control & 0x80 == 0 && functions.name(functions.of(control.into())).is_some()
     }
 
+    /// Whether data can follow a frame control byte. What is sent without acknowledgement is not counted.
+    pub fn carries_data(control: u8) -> bool {
+        match control & !COUNT {
+            // Requests to send (SDA, SDN), and to send and ask (SRD).
+            0x44 | 0x46 => control & COUNT == 0,
+            0x43 | 0x45 | 0x4C | 0x4D => true,
+            // Responses with data (DL, DH, RDL, RDH), of whatever station.
+            0x08 | 0x0A | 0x0C | 0x0D => true,
+            _ => false,
+        }
+    }
+
     /// How long the frame is that begins with `bytes`, of which the end may be missing; `None` if
     /// no frame begins so, or if the length of an SD2 is not there yet.
     ///
@@ -511,6 +523,9 @@ fn stations(bytes: &[u8]) -> Option<(u8, u8)> {
     let (to, from) = (address(at)?, address(at + 1)?);
     Some(if Fdl::direction(bytes)? == Direction::Request { (to, from) } else { (from, to) })
 }
+
+/// Of a frame control byte, whether requests are counted, or of what type a station is.
+const COUNT: u8 = 0x30;
 
 /// Function codes of data sent without acknowledgement.
 const SDN_LOW: u64 = 4;

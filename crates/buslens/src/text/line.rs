@@ -275,7 +275,10 @@ impl Scan {
                         self.of_leftovers = true;
                         self.stranger();
                     }
-                    None => self.stranger(),
+                    None => match words::part(&line[at..to]) {
+                        Some(sender) => self.say(sender, Weight::Strong),
+                        None => self.stranger(),
+                    },
                 }
                 if is_port(&line[at..to]) {
                     self.port.clear();

@@ -133,8 +133,8 @@ struct Header {
     port: Vec<u8>,
     line: u32,
     offset: u64,
-    /// How many bytes the last row below it has.
-    row: usize,
+    /// The last row below it that is full, and goes on in the next line; 0 if there is none.
+    row: u32,
     /// The last number in it.
     number: usize,
     leftovers: bool,
@@ -329,7 +329,10 @@ impl Reader {
         // A digit that is left over is being typed.
         let runs = self.scan.runs.iter().filter(|run| run.span.len() > 1).count().max(1);
         let bare = self.scan.words == 0 && self.scan.time.is_none() && runs == 1;
-        let joined = self.header.as_ref().is_some_and(|header| header.row > 0) && bare;
+        let joined =
+            bare && self.header.as_ref().is_some_and(|header| header.row > 0 && header.row + 1 == self.line);
+        // Rows below a header end where another line comes: what is said in it is said of them only.
+        self.header.take_if(|header| header.row > 0 && !joined);
         let several = self.scan.runs.iter().any(|run| run.len() >= SHORTEST);
         // The cells of a row of a table may be a run, too.
         let table = || memchr::memchr_iter(b'|', line).nth(1).is_some();
@@ -349,7 +352,9 @@ impl Reader {
                 && !bare
                 && !run.marked
                 && !is_labelled(line, &run);
-            let short = run.len() < SHORTEST || (number && run.len() == SHORTEST);
+            // Signs stand for one more byte at least.
+            let length = run.len() + usize::from(has_placeholder(line, &run));
+            let short = length < SHORTEST || (number && length == SHORTEST);
             let two = run.span.len() > 1;
             let said = run.said && run.sender.is_some_and(|(_, weight)| weight == Weight::Strong);
             let named = self.scan.is_acknowledgement(&run);
@@ -372,7 +377,7 @@ impl Reader {
         let length = self.scan.runs.first().map_or(0, Run::len);
         match &mut self.header {
             Some(header) if bare && (header.row == 0 || joined) && ROWS.contains(&length) => {
-                header.row = length
+                header.row = self.line
             }
             header if placed => *header = None,
             _ => {}
@@ -664,10 +669,17 @@ fn is_labelled(line: &[u8], run: &Run) -> bool {
     matches!(before.last(), Some(b':' | b'=' | b'>' | b'-'))
 }
 
+/// Whether signs that stand for bytes follow a run: `01 86 03 xx xx`.
+fn has_placeholder(line: &[u8], run: &Run) -> bool {
+    let behind = line[run.span.to..].trim_ascii_start();
+    [b"xx", b"??", b"XX"].iter().any(|sign| behind.starts_with(*sign))
+}
+
 /// What a line says of a run by how it stands there.
 fn facts(line: &[u8], run: &Run, scan: &Scan) -> Facts {
     /// So near behind a run an ellipsis is one of its bytes.
     const ELLIPSIS: usize = 40;
+    let before = line[..run.span.from].trim_ascii();
     let lead = lead(line, run);
     let behind = line[run.span.to..].trim_ascii_start();
     let closes = match lead {
@@ -683,18 +695,21 @@ fn facts(line: &[u8], run: &Run, scan: &Scan) -> Facts {
     let near = &behind[..behind.len().min(ELLIPSIS)];
     let dots = behind.iter().take_while(|c| **c == b'.').count();
     let ends = behind.get(dots).is_none_or(|c| c.is_ascii_whitespace() || matches!(c, b')' | b']' | b'"'));
-    let placeholder = [b"xx", b"??", b"XX"].iter().any(|sign| behind.starts_with(*sign));
     let ellipsis = !near.is_ascii()
         && ["…".as_bytes(), "・・".as_bytes()].iter().any(|sign| memchr::memmem::find(near, sign).is_some());
     // `0103…C40B`: what is before the ellipsis lacks its end, and what is behind it its beginning.
     let glued = line[run.span.to..].starts_with(b"..") || line[..run.span.from].ends_with(b"..");
     let dotted = (2..=4).contains(&dots) && ends;
-    let abridged = !scan.column && (dotted || glued || placeholder || ellipsis);
+    let abridged = !scan.column && (dotted || glued || has_placeholder(line, run) || ellipsis);
     let shape = run.word ^ (u32::from(lead) << 24) ^ (run.style as u32 + 1).wrapping_mul(0x9E37_79B1);
     Facts {
         labelled: is_labelled(line, run),
         wrapped,
-        array: matches!(lead, b'{' | b'[') && begins_array(&line[..run.span.from]),
+        array: run.marked
+            && run.is_list()
+            && (lead == b',' || lead == b'{' && !before.iter().any(u8::is_ascii_alphanumeric))
+            || matches!(lead, b'{' | b'[') && begins_array(before),
+        words: run.marked && run.tokens() > 1 && run.len() == 2 * run.tokens(),
         marked: run.marked,
         listed: run.is_list(),
         of_telegrams: scan.of_telegrams,

@@ -197,6 +197,19 @@ pub fn word(word: &[u8]) -> Option<About> {
     same.into_iter().find(|at| PACKED[*at] == packed).map(|at| WORDS[at].1)
 }
 
+/// Who speaks, as a part of a name in a program says: `requestText`, `rxBuffer`, `ReadCoilsResponse`.
+pub fn part(name: &[u8]) -> Option<Sender> {
+    let begins = |at: &usize| name[at - 1].is_ascii_lowercase() && name[*at].is_ascii_uppercase();
+    let mut from = 0;
+    (1..name.len()).filter(begins).chain([name.len()]).find_map(|to| {
+        let part = &name[std::mem::replace(&mut from, to)..to];
+        match word(part).filter(|_| part.len() < name.len())? {
+            About::Sender(sender, Strong) => Some(sender),
+            _ => None,
+        }
+    })
+}
+
 /// What the sign that begins at `at` is about, and where it ends.
 pub fn sign(line: &[u8], at: usize) -> Option<(About, usize)> {
     let found = SIGNS.iter().find(|(sign, _)| line[at..].starts_with(sign.as_bytes()));
@@ -209,7 +222,6 @@ pub fn arrow(line: &[u8], at: usize) -> Option<(Sender, usize)> {
     let run = |c: u8| rest.iter().take_while(|other| **other == c).count();
     match rest {
         [b'-' | b'=', b'>', ..] => Some((Logger, at + 2)),
-        [b'-', b'-', b'>', ..] => Some((Logger, at + 3)),
         [b'<', b'-' | b'=', ..] => Some((Other, at + 1 + 1)),
         [b'>', b'>', ..] => Some((Logger, at + run(b'>'))),
         [b'<', b'<', ..] => Some((Other, at + run(b'<'))),
@@ -230,6 +242,18 @@ mod tests {
         for (known, about) in WORDS {
             assert_eq!(word(known.as_bytes()), Some(*about), "{known}");
         }
+    }
+
+    #[test]
+    fn parts_of_names() {
+        assert_eq!(part(b"requestText"), Some(Says(Request)));
+        assert_eq!(part(b"ReadCoilsResponse"), Some(Says(Response)));
+        assert_eq!(part(b"bytesSent"), Some(Logger));
+        assert_eq!(part(b"rxBuffer"), Some(Other));
+        assert_eq!(part(b"request"), None, "a word");
+        assert_eq!(part(b"Requested"), None);
+        assert_eq!(part(b"messageId"), None);
+        assert_eq!(part(b"A"), None);
     }
 
     #[test]

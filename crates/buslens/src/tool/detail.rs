@@ -45,6 +45,29 @@ pub struct Detail {
 }
 
 impl Detail {
+    fn new(said: Message, verdict: Verdict, kind: Message, fields: Vec<Field>) -> Self {
+        Self {
+            said,
+            verdict,
+            kind,
+            note: "",
+            source: "",
+            unit: None,
+            function: None,
+            exception: None,
+            start: None,
+            count: None,
+            values: Vec::new(),
+            coils: false,
+            writes: false,
+            registers: None,
+            channel: None,
+            step: None,
+            device: Said::default(),
+            fields,
+        }
+    }
+
     /// The telegram in one sentence, with what its check makes of it.
     pub fn meaning(&self) -> Message {
         match self.verdict {
@@ -86,26 +109,8 @@ impl Report {
         }
         let (frame, reading) = self.read(index);
         let bytes = &telegram.line.bytes;
-        let mut detail = Detail {
-            said: frame.meaning(),
-            verdict: telegram.verdict,
-            kind: message!("a telegram"),
-            note: "",
-            source: "",
-            unit: None,
-            function: None,
-            exception: None,
-            start: None,
-            count: None,
-            values: Vec::new(),
-            coils: false,
-            writes: false,
-            registers: None,
-            channel: None,
-            step: None,
-            device: Said::default(),
-            fields: reading.fields,
-        };
+        let mut detail =
+            Detail::new(frame.meaning(), telegram.verdict, message!("a telegram"), reading.fields);
         let device = self.device(index).map(|profile| (profile, &self.settings(index).device));
         if let Content::Profibus { body, .. } = frame.content()
             && let Some(channel) = body.channel()
@@ -214,26 +219,10 @@ impl Report {
 impl Detail {
     /// What there is to say of a block by itself.
     fn of_block(block: BlockReading) -> Self {
-        let kind = block.kind.clone();
+        let said = message!("{kind} by itself: {said}", kind = block.kind.clone(), said = block.said);
         Self {
-            said: message!("{kind} by itself: {said}", kind = kind.clone(), said = block.said),
-            verdict: Verdict::NoCheck,
-            kind,
             note: "A block without a frame: its address, and whose it is, the bytes do not tell.",
-            source: "",
-            unit: None,
-            function: None,
-            exception: None,
-            start: None,
-            count: None,
-            values: Vec::new(),
-            coils: false,
-            writes: false,
-            registers: None,
-            channel: None,
-            step: None,
-            device: Said::default(),
-            fields: block.fields,
+            ..Self::new(said, Verdict::NoCheck, block.kind, block.fields)
         }
     }
 

@@ -23,7 +23,7 @@ fn say(found: &mut Vec<Mistake>, line: usize, said: impl Into<String>) {
 }
 
 impl Step {
-    fn check(&self, found: &mut Vec<Mistake>) {
+    pub(crate) fn check(&self, found: &mut Vec<Mistake>) {
         let report = self.report();
         if report.telegrams.len() != self.telegrams.len() {
             // Which one it is tells best who reads each by itself.

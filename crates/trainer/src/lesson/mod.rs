@@ -18,6 +18,7 @@ pub use all::LESSONS;
 pub use exercise::{Ask, Exercise, Reading};
 pub use progress::Progress;
 pub use read::read;
+pub(crate) use read::{is_known, key};
 pub use text::{Piece, pieces};
 
 /// What is wrong in a lesson's text.

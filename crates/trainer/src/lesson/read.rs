@@ -364,13 +364,13 @@ impl Reader {
 }
 
 /// `key: value`. Keys are small letters, so that text can have colons.
-fn key(line: &str) -> Option<(&str, &str)> {
+pub(crate) fn key(line: &str) -> Option<(&str, &str)> {
     let (key, value) = line.split_once(':')?;
     let small = !key.is_empty() && key.len() <= 12 && key.bytes().all(|it| it.is_ascii_lowercase());
     (small && (value.is_empty() || value.starts_with(' '))).then(|| (key, value.trim()))
 }
 
-fn is_known(key: &str) -> bool {
+pub(crate) fn is_known(key: &str) -> bool {
     [OF_LESSON, OF_STEP, OF_TASK].iter().any(|keys| keys.contains(&key))
 }
 

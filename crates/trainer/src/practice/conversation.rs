@@ -12,7 +12,7 @@ pub const SILENCE: Slots = [SILENCE_1, SILENCE_2, SILENCE_3];
 
 /// What can be wrong with a conversation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Fault {
+pub(crate) enum Trouble {
     Nothing,
     Unanswered,
     Rejected,
@@ -29,9 +29,31 @@ enum Fault {
     Retry,
 }
 
-impl Fault {
+impl Trouble {
+    pub(crate) const ALL: [Self; 14] = [
+        Self::Nothing,
+        Self::Unanswered,
+        Self::Rejected,
+        Self::Damaged,
+        Self::CheckSwapped,
+        Self::Echo,
+        Self::ByteLost,
+        Self::OtherUnit,
+        Self::ByteCount,
+        Self::FlowControl,
+        Self::WordOrder,
+        Self::Late,
+        Self::OtherRegisters,
+        Self::Retry,
+    ];
+
+    /// The rule that tells it, whatever log it is in.
+    pub(crate) const fn rule(self) -> &'static str {
+        told(self)[1]
+    }
+
     /// How a choice names it.
-    const fn text(self) -> &'static str {
+    pub(crate) const fn text(self) -> &'static str {
         match self {
             Self::Nothing => "Nothing: each request has its response",
             Self::Unanswered => "A request stays unanswered",
@@ -51,7 +73,7 @@ impl Fault {
     }
 
     /// What there is to say to who chose it wrongly.
-    const fn remark(self) -> &'static str {
+    pub(crate) const fn remark(self) -> &'static str {
         match self {
             Self::Nothing => "Go through it pair by pair: something is not as it should be.",
             Self::Unanswered => "Look again: behind every request comes something of the same unit.",
@@ -77,14 +99,14 @@ impl Fault {
 
 const LEVEL_1: [Slot; 5] = [
     |random| {
-        let others = [Fault::Nothing, Fault::Rejected, Fault::Damaged];
-        conversation(random, Fault::Unanswered, &others, |log, random, at| {
+        let others = [Trouble::Nothing, Trouble::Rejected, Trouble::Damaged];
+        conversation(random, Trouble::Unanswered, &others, |log, random, at| {
             log.exchange(random, at != 1);
         })
     },
     |random| {
-        let others = [Fault::Nothing, Fault::Unanswered, Fault::Damaged];
-        conversation(random, Fault::Rejected, &others, |log, random, at| {
+        let others = [Trouble::Nothing, Trouble::Unanswered, Trouble::Damaged];
+        conversation(random, Trouble::Rejected, &others, |log, random, at| {
             if at == 1 {
                 let request = log.request(random);
                 log.send(&request);
@@ -96,8 +118,8 @@ const LEVEL_1: [Slot; 5] = [
         })
     },
     |random| {
-        let others = [Fault::Nothing, Fault::Unanswered, Fault::Rejected];
-        conversation(random, Fault::Damaged, &others, |log, random, at| {
+        let others = [Trouble::Nothing, Trouble::Unanswered, Trouble::Rejected];
+        conversation(random, Trouble::Damaged, &others, |log, random, at| {
             let (request, mut answer) = log.pair(random);
             if at == 1 {
                 answer[4] ^= 1 << random.below(8);
@@ -107,12 +129,12 @@ const LEVEL_1: [Slot; 5] = [
         })
     },
     |random| {
-        let others = [Fault::Unanswered, Fault::Rejected, Fault::Damaged];
-        conversation(random, Fault::Nothing, &others, |log, random, _| log.exchange(random, true))
+        let others = [Trouble::Unanswered, Trouble::Rejected, Trouble::Damaged];
+        conversation(random, Trouble::Nothing, &others, |log, random, _| log.exchange(random, true))
     },
     |random| {
-        let others = [Fault::Nothing, Fault::Unanswered, Fault::Rejected];
-        conversation(random, Fault::CheckSwapped, &others, |log, random, _| {
+        let others = [Trouble::Nothing, Trouble::Unanswered, Trouble::Rejected];
+        conversation(random, Trouble::CheckSwapped, &others, |log, random, _| {
             let (request, mut answer) = log.pair(random);
             let end = answer.len();
             answer.swap(end - 1, end - 2);
@@ -124,8 +146,8 @@ const LEVEL_1: [Slot; 5] = [
 
 const LEVEL_2: [Slot; 5] = [
     |random| {
-        let others = [Fault::Retry, Fault::Nothing, Fault::OtherUnit];
-        conversation(random, Fault::Echo, &others, |log, random, _| {
+        let others = [Trouble::Retry, Trouble::Nothing, Trouble::OtherUnit];
+        conversation(random, Trouble::Echo, &others, |log, random, _| {
             let (request, answer) = log.pair(random);
             log.send(&request);
             log.answer(&request.bytes, 1);
@@ -133,8 +155,8 @@ const LEVEL_2: [Slot; 5] = [
         })
     },
     |random| {
-        let others = [Fault::ByteCount, Fault::OtherRegisters, Fault::Damaged];
-        conversation(random, Fault::ByteLost, &others, |log, random, at| {
+        let others = [Trouble::ByteCount, Trouble::OtherRegisters, Trouble::Damaged];
+        conversation(random, Trouble::ByteLost, &others, |log, random, at| {
             let (request, mut answer) = log.pair(random);
             if at == 1 {
                 answer.remove(4);
@@ -144,8 +166,8 @@ const LEVEL_2: [Slot; 5] = [
         })
     },
     |random| {
-        let others = [Fault::Unanswered, Fault::Damaged, Fault::Echo];
-        conversation(random, Fault::OtherUnit, &others, |log, random, at| {
+        let others = [Trouble::Unanswered, Trouble::Damaged, Trouble::Echo];
+        conversation(random, Trouble::OtherUnit, &others, |log, random, at| {
             let (request, mut answer) = log.pair(random);
             if at == 1 {
                 answer.truncate(answer.len() - 2);
@@ -157,8 +179,8 @@ const LEVEL_2: [Slot; 5] = [
         })
     },
     |random| {
-        let others = [Fault::ByteLost, Fault::Damaged, Fault::Nothing];
-        conversation(random, Fault::ByteCount, &others, |log, random, at| {
+        let others = [Trouble::ByteLost, Trouble::Damaged, Trouble::Nothing];
+        conversation(random, Trouble::ByteCount, &others, |log, random, at| {
             let (request, mut answer) = log.pair(random);
             if at == 1 {
                 answer.truncate(answer.len() - 2);
@@ -170,8 +192,8 @@ const LEVEL_2: [Slot; 5] = [
         })
     },
     |random| {
-        let others = [Fault::Echo, Fault::Nothing, Fault::OtherUnit];
-        conversation(random, Fault::Retry, &others, |log, random, at| {
+        let others = [Trouble::Echo, Trouble::Nothing, Trouble::OtherUnit];
+        conversation(random, Trouble::Retry, &others, |log, random, at| {
             let (request, answer) = log.pair(random);
             if at == 1 {
                 log.send(&request);
@@ -185,8 +207,8 @@ const LEVEL_2: [Slot; 5] = [
 
 const LEVEL_3: [Slot; 5] = [
     |random| {
-        let others = [Fault::OtherRegisters, Fault::ByteCount, Fault::Damaged];
-        conversation(random, Fault::FlowControl, &others, |log, random, at| {
+        let others = [Trouble::OtherRegisters, Trouble::ByteCount, Trouble::Damaged];
+        conversation(random, Trouble::FlowControl, &others, |log, random, at| {
             let request = short(log.unit, 3, log.address, 2);
             let swallowed = [0x11, 0x13][at % 2];
             let data = [word(random).to_be_bytes(), [random.between(0x20, 0x60) as u8, swallowed]].concat();
@@ -198,8 +220,8 @@ const LEVEL_3: [Slot; 5] = [
         })
     },
     |random| {
-        let others = [Fault::Nothing, Fault::Damaged, Fault::ByteCount];
-        let mut task = conversation(random, Fault::WordOrder, &others, |log, random, _| {
+        let others = [Trouble::Nothing, Trouble::Damaged, Trouble::ByteCount];
+        let mut task = conversation(random, Trouble::WordOrder, &others, |log, random, _| {
             let request = short(log.unit, 3, log.address, 2);
             let raw = quarters(random).to_bits();
             log.send(&request);
@@ -211,8 +233,8 @@ const LEVEL_3: [Slot; 5] = [
         task
     },
     |random| {
-        let others = [Fault::Unanswered, Fault::Echo, Fault::Damaged];
-        conversation(random, Fault::Late, &others, |log, random, at| {
+        let others = [Trouble::Unanswered, Trouble::Echo, Trouble::Damaged];
+        conversation(random, Trouble::Late, &others, |log, random, at| {
             let (request, answer) = log.pair(random);
             log.send(&request);
             if at == 1 {
@@ -226,8 +248,8 @@ const LEVEL_3: [Slot; 5] = [
         })
     },
     |random| {
-        let others = [Fault::ByteCount, Fault::ByteLost, Fault::Nothing];
-        conversation(random, Fault::OtherRegisters, &others, |log, random, at| {
+        let others = [Trouble::ByteCount, Trouble::ByteLost, Trouble::Nothing];
+        conversation(random, Trouble::OtherRegisters, &others, |log, random, at| {
             let (request, answer) = log.pair(random);
             log.send(&request);
             if at == 1 {
@@ -239,8 +261,8 @@ const LEVEL_3: [Slot; 5] = [
         })
     },
     |random| {
-        let others = [Fault::Nothing, Fault::OtherUnit, Fault::Damaged];
-        conversation(random, Fault::Unanswered, &others, |log, random, at| {
+        let others = [Trouble::Nothing, Trouble::OtherUnit, Trouble::Damaged];
+        conversation(random, Trouble::Unanswered, &others, |log, random, at| {
             let data = [word(random).to_be_bytes(), word(random).to_be_bytes()].concat();
             let request = write(log.unit, log.address, &data);
             log.send(&request);
@@ -325,17 +347,17 @@ const EXCHANGES: usize = 3;
 /// A conversation in which `write` writes exchange after exchange.
 fn conversation(
     random: &mut Random,
-    fault: Fault,
-    others: &[Fault; 3],
+    trouble: Trouble,
+    others: &[Trouble; 3],
     write: fn(&mut Log, &mut Random, usize),
 ) -> Task {
     let mut log = Log::new(random);
     (0..EXCHANGES).for_each(|at| write(&mut log, random, at));
-    let mut all = [&others[..], &[fault]].concat();
+    let mut all = [&others[..], &[trouble]].concat();
     random.shuffle(&mut all);
-    let right = all.iter().position(|one| *one == fault).unwrap_or_default();
+    let right = all.iter().position(|one| *one == trouble).unwrap_or_default();
     let choices = all.iter().map(|one| Choice::new(one.text(), one.remark())).collect();
-    let [place, rule, last, why] = told(fault);
+    let [place, rule, last, why] = told(trouble);
     Task {
         question: "TX is what the client sends, RX what it hears. What is wrong here?".to_owned(),
         hints: [place, rule, last].map(str::to_owned).to_vec(),
@@ -343,7 +365,7 @@ fn conversation(
             "Pair each request with what follows it: same unit, same function, a byte count that fits."
                 .to_owned(),
             why.to_owned(),
-            format!("So: {}.", super::make::small(fault.text())),
+            format!("So: {}.", super::make::small(trouble.text())),
         ],
         given: vec![Given::Text(log.lines.join("\n"))],
         expected: Expected::Choice { choices, right },
@@ -351,88 +373,88 @@ fn conversation(
 }
 
 /// Three hints, and what shows the fault.
-const fn told(fault: Fault) -> [&'static str; 4] {
+const fn told(trouble: Trouble) -> [&'static str; 4] {
     const PAIRS: &str = "Go through it line by line: which response belongs to which request?";
-    match fault {
-        Fault::Nothing => [
+    match trouble {
+        Trouble::Nothing => [
             PAIRS,
             "A healthy response has the unit and the function of its request, and twice as many bytes as registers were asked for.",
             "Is there anything at all that does not fit?",
             "Every request is followed by a response of the same unit and function, with four bytes for two registers.",
         ],
-        Fault::Unanswered => [
+        Trouble::Unanswered => [
             PAIRS,
             "Behind each TX there should be one RX of the same unit.",
             "Look for two TX, one after the other, or a TX at the end.",
             "One request is followed by no response.",
         ],
-        Fault::Rejected => [
+        Trouble::Rejected => [
             PAIRS,
             "Compare the second byte of each response with that of its request.",
             "03h + 80h = 83h: one response begins so.",
             "One response has function 83h: an exception, with a code behind it.",
         ],
-        Fault::Damaged => [
+        Trouble::Damaged => [
             PAIRS,
             "All responses have the right length and begin as they should. So what is left to be wrong?",
             "The CRC of the second response does not fit its bytes: paste it into Read to see that.",
             "The second response is complete, and its CRC is not that of its bytes: one bit is another.",
         ],
-        Fault::CheckSwapped => [
+        Trouble::CheckSwapped => [
             "Look at the last two bytes of each line.",
             "The CRC goes low byte first. In the requests it does.",
             "Swap the last two bytes of a response: then its CRC is valid.",
             "The responses are right but for their CRC, whose bytes are the other way round.",
         ],
-        Fault::Echo => [
+        Trouble::Echo => [
             "Compare each TX with the line behind it.",
             "On RS-485 with two wires everybody hears everything, also himself.",
             "The first RX behind each TX is the request itself, one millisecond later.",
             "Each request comes back byte for byte before its response.",
         ],
-        Fault::ByteLost => [
+        Trouble::ByteLost => [
             "Count the bytes of each response.",
             "Unit, function, byte count, then as many bytes as it says, then two of CRC.",
             "The second response has 8 bytes where the others have 9.",
             "The second response says 4 bytes, and 3 are there before the CRC.",
         ],
-        Fault::OtherUnit => [
+        Trouble::OtherUnit => [
             "Compare the first bytes.",
             "Who is asked should be who answers.",
             "Look at the first byte of the second response.",
             "The second response begins with another unit, and its CRC is valid: two units have been mixed up.",
         ],
-        Fault::ByteCount => [
+        Trouble::ByteCount => [
             "Count the bytes of each response.",
             "The third byte says how many bytes follow before the CRC.",
             "Look at the third byte of the second response: 06, and 4 follow.",
             "The second response says 6 bytes and has 4; its CRC is valid, so the device itself sends it so.",
         ],
-        Fault::FlowControl => [
+        Trouble::FlowControl => [
             "Count the bytes of each response.",
             "Which bytes are missing? Two values never appear in any response.",
             "Bytes 11h and 13h stop and start the flow on some converters (XON/XOFF).",
             "Each response is a byte short, and what would make its CRC valid is a byte 11h or 13h.",
         ],
-        Fault::WordOrder => [
+        Trouble::WordOrder => [
             "Take the four bytes of a response as a float.",
             "A float of usual size begins with 41, 42, 43 or 44.",
             "The second word of each response begins so, not the first.",
             "With the two words the other way round, each response is a float between 0 and 600.",
         ],
-        Fault::Late => [
+        Trouble::Late => [
             "Look at the times.",
             "How long after a request does its response come?",
             "The second request is repeated after a second; then two responses come.",
             "The response to the first try comes when the client has asked again, and then a second one.",
         ],
-        Fault::OtherRegisters => [
+        Trouble::OtherRegisters => [
             "Compare what is asked with what comes.",
             "A quantity of 2 makes 4 bytes.",
             "The second response has a byte count of 6.",
             "Two registers were asked for, and the second response has three; its CRC is valid.",
         ],
-        Fault::Retry => [
+        Trouble::Retry => [
             PAIRS,
             "Is there a request twice?",
             "The second request stands there twice, a second apart.",

@@ -22,6 +22,9 @@ mod decode;
 mod find;
 mod make;
 
+pub(crate) use conversation::Trouble;
+pub(crate) use make::{all_fields, bytes_said};
+
 use crate::random::Random;
 use crate::task::{Expected, Given, Task};
 

@@ -13,7 +13,7 @@ use crate::views::learn::LearnState;
 use crate::views::learn::state::Part;
 use crate::views::read::ReadState;
 use buslens::field::hex;
-use buslens::tool::{PROFILES, Profile};
+use buslens::tool::{PROFILES, Profile, Protocol};
 use buslens_trainer::Task;
 use buslens_trainer::fault::{self, Fault};
 use buslens_trainer::practice::Seed;
@@ -51,7 +51,7 @@ impl OwnTask {
     }
 
     fn task(&self) -> Result<Task, &'static str> {
-        let telegram = fault::telegram(&self.text, self.device)?;
+        let telegram = fault::telegram(&self.text, Protocol::of("modbus-rtu"), self.device)?;
         fault::task(&telegram, self.fault, &mut Random::of(&[self.seed.number().into()]))
             .ok_or("This fault cannot be in this telegram so that it can be found: choose another one.")
     }
@@ -99,10 +99,11 @@ fn Making(why: &'static str) -> impl IntoView {
     let make = move |event: SubmitEvent| {
         event.prevent_default();
         let device = device.get_untracked().and_then(Profile::of);
-        let telegram = match typed.with_untracked(|text| fault::telegram(text, device)) {
-            Ok(telegram) => telegram,
-            Err(why) => return refused.set(why),
-        };
+        let telegram =
+            match typed.with_untracked(|text| fault::telegram(text, Protocol::of("modbus-rtu"), device)) {
+                Ok(telegram) => telegram,
+                Err(why) => return refused.set(why),
+            };
         let lines = telegram.request.iter().chain([&telegram.bytes]).map(|bytes| hex(bytes));
         let text = lines.collect::<Vec<_>>().join("\n");
         let seed = any_seed();

@@ -14,7 +14,7 @@ use crate::components::icon::{Glyph, Icon};
 use crate::views::learn::LearnState;
 use buslens_trainer::notation::Notation;
 use buslens_trainer::practice::{LEVELS, QUESTIONS, Round};
-use buslens_trainer::result::RoundResult;
+use buslens_trainer::result::{About, RoundResult};
 use buslens_trainer::{Answer, Blank, Choice, Expected, Task, Telegram, Verdict, grade, letter};
 
 #[component]
@@ -509,7 +509,7 @@ pub fn Done(round: Round) -> impl IntoView {
     let counted = move |wanted: Outcome| outcomes.get().iter().filter(|it| **it == wanted).count();
     let right = move || counted(Outcome::First);
     let open = move || counted(Outcome::Open);
-    let code = Memo::new(move |_| RoundResult { round, right: right() }.code());
+    let code = Memo::new(move |_| RoundResult { about: About::Round(round), right: right() }.code());
     let headline = move || match (open(), right()) {
         (0, QUESTIONS) => format!("All {QUESTIONS} right at the first answer."),
         (0, right) => format!("{right} of {QUESTIONS} right at the first answer."),

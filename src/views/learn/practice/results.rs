@@ -11,7 +11,7 @@ use crate::components::icon::{Glyph, Icon};
 use crate::components::toast::Toasts;
 use crate::views::learn::LearnState;
 use buslens_trainer::practice::QUESTIONS;
-use buslens_trainer::result::{self, Line, RoundResult};
+use buslens_trainer::result::{self, About, Line, RoundResult};
 
 #[component]
 pub fn Results() -> impl IntoView {
@@ -50,7 +50,18 @@ pub fn Results() -> impl IntoView {
     let row = |line: Line| {
         let Line { name, code, result } = line;
         match result {
-            Ok(RoundResult { round, right }) => view! {
+            Ok(RoundResult { about: About::Set(seed), right }) => view! {
+                <tr>
+                    <th scope="row">{name}</th>
+                    <td><code>{code}</code></td>
+                    <td>"A set"</td>
+                    <td></td>
+                    <td><code>{seed.to_string()}</code></td>
+                    <td class="number">{right}</td>
+                </tr>
+            }
+            .into_any(),
+            Ok(RoundResult { about: About::Round(round), right }) => view! {
                 <tr>
                     <th scope="row">{name}</th>
                     <td><code>{code}</code></td>

@@ -15,6 +15,7 @@ use super::ReadState;
 use super::log::Stage;
 use super::open_file::OpenFile;
 use super::times::stretch;
+use crate::browser::typing::go_to_field;
 use crate::components::icon::{Glyph, Icon};
 use crate::components::menu::{Menu, MenuItem, MenuLink};
 use crate::views::outgoing::{PassOn, Summary};
@@ -85,7 +86,13 @@ fn FileBar() -> impl IntoView {
         log.ask(Request::Digest);
         summary.set(true);
     };
-    let has_text = move || read.is_text() && !read.editing.get();
+    let edit = move |_| {
+        read.editing.update(|editing| *editing = !*editing);
+        if read.editing.get_untracked() {
+            request_animation_frame(go_to_field);
+        }
+    };
+    let edit_label = move || if read.editing.get() { "Hide text" } else { "Edit text" };
     view! {
         <section class="file-bar" aria-label="File">
             <Icon glyph=Glyph::File />
@@ -94,10 +101,10 @@ fn FileBar() -> impl IntoView {
                 {about}
             </span>
             <div class="acts">
-                <Show when=has_text>
-                    <button type="button" class="button plain" on:click=move |_| read.editing.set(true)>
+                <Show when=move || read.is_text()>
+                    <button type="button" class="button plain" on:click=edit>
                         <Icon glyph=Glyph::Edit />
-                        "Edit text"
+                        {edit_label}
                     </button>
                 </Show>
                 <button type="button" class="button plain" on:click=move |_| read.clear()>

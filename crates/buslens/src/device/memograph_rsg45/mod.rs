@@ -120,7 +120,7 @@ const WORTHS: &[Range] = &[
 
 static VALUE: Spec = Spec::new("value", "Value")
     .format(Format::Float)
-    .note("A float in the unit that the device is set up with; the bus does not carry the unit.")
+    .note("A number in the unit that the device is set up with; the bus does not carry the unit.")
     .source("Memograph M RSG45 Modbus supplement, 2.6.14");
 
 const fn status(key: &'static str, label: &'static str) -> Spec {

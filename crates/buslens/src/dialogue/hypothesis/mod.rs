@@ -354,6 +354,29 @@ mod tests {
     }
 
     #[test]
+    fn a_sum_tells_a_lost_byte() {
+        for (right, protocol) in [
+            ("11 03 00 6B 00 03 7E", &modbus_ascii::PROTOCOL),
+            ("10 02 01 49 4C 16", &profibus_fdl::PROTOCOL),
+            ("68 08 08 68 01 02 08 12 34 56 78 9A B9 16", &profibus_fdl::PROTOCOL),
+        ] {
+            let right = bytes(right);
+            let first = if protocol.is(&profibus_fdl::PROTOCOL) && right[0] == 0x68 { 4 } else { 1 };
+            for at in first..right.len() - 2 {
+                let mut found = right.clone();
+                found.remove(at);
+                // A zero more or less changes no sum.
+                if right[at] == 0 {
+                    continue;
+                }
+                let all = hypotheses(&found, protocol, Context::default());
+                let one = all.iter().find(|one| one.bytes == right);
+                assert_eq!(one.map(|one| one.cause), Some(Cause::ByteMissing), "{at} of {right:02X?}");
+            }
+        }
+    }
+
+    #[test]
     fn odds_are_said_in_words() {
         let one = |tries| Hypothesis {
             cause: Cause::ByteChanged,

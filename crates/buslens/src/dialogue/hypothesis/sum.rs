@@ -2,7 +2,7 @@
 //! little can be told from the check alone.
 
 use super::{Cause, Search};
-use crate::frame::{Protocol, Verdict};
+use crate::frame::{Protocol, Verdict, profibus_fdl};
 
 impl Search<'_> {
     /// What makes the check of a telegram of `protocol` right.
@@ -50,6 +50,23 @@ impl Search<'_> {
                 let doubled = self.bytes.get(at + 1) == Some(&self.bytes[at]);
                 let cause = if doubled { Cause::ByteDoubled } else { Cause::ByteExtra };
                 self.add(cause, at, without, Some(length));
+            }
+        }
+        let check = if protocol.is(&profibus_fdl::PROTOCOL) { length - 2 } else { length - 1 };
+        self.missing_of_sum(check, right);
+    }
+
+    /// A byte that was lost before `check`. A sum says which one, and leaves open where it was: a length or a byte
+    /// count may tell.
+    fn missing_of_sum(&mut self, check: usize, right: impl Fn(&[u8]) -> bool) {
+        let bytes = self.bytes;
+        let with = |at: usize, byte: u8| [&bytes[..at], &[byte], &bytes[at..]].concat();
+        let Some(byte) = (0..=255).find(|byte| right(&with(check, *byte))) else { return };
+        for at in 1..=check {
+            let whole = with(at, byte);
+            // Beside its like, it is the same wherever it was.
+            if bytes[at - 1] != byte && right(&whole) {
+                self.add(Cause::ByteMissing, at, whole, Some(bytes.len()));
             }
         }
     }

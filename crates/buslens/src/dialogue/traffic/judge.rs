@@ -309,7 +309,11 @@ impl Traffic {
             self.passed.push((whole.line, whole.offset));
             return None;
         }
-        // The layout says that a telegram stands here: one that is damaged, or noise.
+        // The layout says that a telegram stands here: one that is cut or damaged, or noise.
+        if one.cut {
+            as_cut(&mut self.entries[one.entry as usize]);
+            return None;
+        }
         let like = own.get(1).is_some_and(|function| self.splitter.knows(*function)) && own[0] <= 247;
         if !like || known.families[Family::Tcp as usize] {
             let entry = &mut self.entries[one.entry as usize];
@@ -446,7 +450,8 @@ impl Traffic {
         let own = bytes(entry, &self.data);
         let facts = &one.facts;
         // What one person types into an empty page is meant to be one.
-        let meant = one.read || known.entries == 1 || self.settings.bus.is_some();
+        let alone = known.entries == 1 && !facts.array;
+        let meant = one.read || alone || self.settings.bus.is_some();
         if known.typed && meant && !facts.abridged {
             return true;
         }

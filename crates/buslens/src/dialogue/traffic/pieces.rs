@@ -637,9 +637,15 @@ impl Traffic {
             self.waiting[port] = waiting;
         }
         if protocol.is(&modbus_unchecked::PROTOCOL) && reading.is_some_and(|reading| reading.cut) {
-            // Requests are short, but for writes: what is cut is a response.
-            let writes = matches!(self.entries[before].function, 15 | 16 | 101);
-            self.entries[before].sides = [writes, !writes];
+            // Requests are short, but for writes: what is cut is a response, unless its check tells.
+            let own = &bytes[stray..];
+            let checked = || {
+                let [request, _] = self.splitter.rtu_lengths(own);
+                request == Some(own.len() + 1) && evidence::begins_check(own)
+            };
+            let asks = matches!(self.entries[before].function, 15 | 16 | 101)
+                || !reading.is_some_and(|reading| reading.awaited) && checked();
+            self.entries[before].sides = [asks, !asks];
         }
         if bits(&reading) > 8 {
             self.shapes.look_alike(facts.shape);

@@ -155,7 +155,16 @@ impl Traffic {
         }
         if last && garbage < at {
             let kept = *kept.get_or_insert_with(|| keep(&mut self.data, bytes));
-            self.unframed(index, &bytes[garbage..at], from + garbage, kept + garbage);
+            let rest = &bytes[garbage..at];
+            match evidence::reading(rest, &self.splitter, self.waiting[port]) {
+                // The recording ends within the answer.
+                Some(cut) if cut.cut && cut.awaited && cut.from == 0 && main.is(&modbus_rtu::PROTOCOL) => {
+                    let (from, at) = (from + garbage, kept + garbage);
+                    self.push(index, rest, from, at, cut.protocol, cut.verdict, Role::Plain);
+                    self.entries.last_mut().expect("it was added").sides = [false, true];
+                }
+                _ => self.unframed(index, rest, from + garbage, kept + garbage),
+            }
             garbage = at;
         }
         if let Some(kept) = kept {

@@ -1,240 +1,16 @@
-//! What somebody means who types a few words: the offers that they fit, filled in, best first.
+//! The words of somebody tried on a task of a device: what they fill in, and how well that fits.
 
-use super::offers::offers;
-use super::{Change, Editor, Offer, PROFILES, PROTOCOLS, Profile, Protocol, Settings};
+use super::query::{Number, Query, STATES, Word, fold, in_words, meant, split};
+use super::{ADDRESS, ALSO, BEGINNING, Fit, NAME, NOTE, VALUE, WORD};
 use crate::device::{Access, Area, Content as Held, Parameter, Target, Task};
-use crate::field::{Argument, Direction, Message, Role, Spec, hex_value, in_order, number_text};
+use crate::field::{Argument, Message, Role, Spec, hex_value, number_text};
 use crate::message;
 use crate::walk::form::{self, Content, Entry, Form};
 use crate::walk::{Deviations, Telegram};
 
-/// Something that can be built, as somebody asked for it.
-#[derive(Clone, Debug)]
-pub struct Found {
-    /// Whose words these are; `None` for a function or service by itself.
-    pub device: Option<&'static Profile>,
-    pub offer: Offer,
-    /// What the words fill in, as path and text for [`Change::Enter`].
-    pub entries: Vec<(String, String)>,
-    /// Why it was found, where its label does not show it; may be empty.
-    pub reason: Message,
-}
-
-impl Found {
-    /// "Write Universal channel at 200 to 319".
-    pub fn label(&self) -> Message {
-        self.offer.label()
-    }
-
-    /// The wished protocol, if it carries this; else the usual one that does.
-    pub fn protocol(&self, wished: Option<&'static Protocol>) -> &'static Protocol {
-        let settings = Settings::default();
-        let carries = |protocol: &&'static Protocol| Editor::new(self.offer, 1, protocol, &settings).is_ok();
-        // A job by itself: within a frame it would come with outputs of 0.
-        let by_itself = match self.offer {
-            Offer::Task(_) => Protocol::of("profibus-parameter-channel"),
-            _ => None,
-        };
-        let usual = by_itself.into_iter().chain(PROTOCOLS.iter().copied());
-        wished.into_iter().chain(usual).find(carries).unwrap_or(PROTOCOLS[0])
-    }
-
-    /// The form, filled in.
-    pub fn editor(
-        &self,
-        unit: u8,
-        wished: Option<&'static Protocol>,
-        settings: &Settings,
-    ) -> Result<Editor, Message> {
-        let mut settings = settings.clone();
-        let ident = &mut settings.frame.profibus.ident;
-        *ident = ident.or(self.device.and_then(|device| device.ident));
-        let mut editor = Editor::new(self.offer, unit, self.protocol(wished), &settings)?;
-        editor.device = editor.device.or(self.device);
-        for (path, text) in &self.entries {
-            editor.edit(path, Change::Enter(text));
-        }
-        Ok(editor)
-    }
-}
-
-/// What somebody may mean who types `text`, best first: a name in any spelling, an address of the bus or
-/// of COMBIVIS, a function, a service, or a sentence.
-///
-/// All devices are searched; what is offered for `device` comes first. Every word has to mean something:
-/// what fits only in part is left out.
-///
-/// ```
-/// use buslens::field::hex;
-/// use buslens::tool::{Profile, Settings, search};
-///
-/// let memograph = Profile::of("memograph-rsg45");
-/// let found = search("write 123.456 good to channel 6", memograph);
-/// let mut editor = found[0].editor(1, None, &Settings::default()).unwrap();
-/// assert_eq!(hex(&editor.bytes().unwrap()), "01 10 00 D7 00 03 06 00 80 42 F6 E9 79 28 15");
-/// ```
-pub fn search(text: &str, device: Option<&'static Profile>) -> Vec<Found> {
-    let query = Query::of(text);
-    let mut found: Vec<(i32, Found)> = Vec::new();
-    let mut add = |score: i32, one: Found| found.push((score, one));
-    let chosen = device.into_iter();
-    for profile in
-        chosen.chain(PROFILES.iter().copied().filter(|other| device.is_none_or(|it| it.key != other.key)))
-    {
-        let own = if device.is_some_and(|device| device.key == profile.key) { OWN } else { 0 };
-        for task in profile.tasks() {
-            if let Some(fit) = query.fit_task(&task) {
-                let Fit { score, entries, reason } = fit;
-                let one = Found { device: Some(profile), offer: Offer::Task(task), entries, reason };
-                add(score + own, one);
-            }
-        }
-    }
-    for offer in offers(None) {
-        if let Some(score) = query.fit_telegram(&offer) {
-            let one = Found { device: None, offer, entries: Vec::new(), reason: Message::term("") };
-            let own = match (&offer, device) {
-                (Offer::Service(_), Some(device)) if device.ident.is_some() => OWN,
-                (Offer::Telegram(kind), Some(device)) if device.functions.contains(&kind.function) => OWN,
-                _ => 0,
-            };
-            add(score + own, one);
-        }
-    }
-    // As they are offered, where nothing tells them apart.
-    let found = in_order(found, |(score, _)| std::cmp::Reverse(*score));
-    found.into_iter().map(|(_, found)| found).collect()
-}
-
-/// What belongs to the device that is chosen comes before all else.
-const OWN: i32 = 1000;
-
-/// How much a word says.
-const NAME: i32 = 120;
-const ADDRESS: i32 = 90;
-const WORD: i32 = 40;
-const BEGINNING: i32 = 25;
-const ALSO: i32 = 22;
-const VALUE: i32 = 15;
-const INSIDE: i32 = 12;
-const NOTE: i32 = 2;
-
-/// A text in words.
-struct Query {
-    words: Vec<Word>,
-    /// What is to be done, where a word says it.
-    access: Option<Access>,
-    /// A word that switches off what it is about.
-    off: bool,
-}
-
-struct Word {
-    /// As typed.
-    text: String,
-    /// Without capitals, and without what only parts it.
-    plain: String,
-    /// It says what to do and nothing else, where nothing is called so.
-    verb: bool,
-    stop: bool,
-    number: Option<Number>,
-}
-
-#[derive(Clone, Copy)]
-pub(super) struct Number {
-    /// Whole numbers that can be addresses or say which one.
-    pub whole: Option<u64>,
-    hex: bool,
-}
-
-/// What became of the words for one offer.
-struct Fit {
-    score: i32,
-    entries: Vec<(String, String)>,
-    reason: Message,
-}
-
-const READ: &[&str] = &["read", "get", "ask", "show", "fetch", "query", "request", "what"];
-const WRITE: &[&str] =
-    &["write", "set", "send", "put", "change", "switch", "turn", "load", "reset", "clear", "map", "give"];
-const OFF: &[&str] = &["clear", "reset"];
-const STOP: &[&str] = &[
-    "to", "the", "of", "a", "an", "at", "in", "as", "with", "and", "for", "from", "is", "=", ":", "into",
-    "please", "its",
-];
-
-/// What switches are called otherwise.
-const STATES: &[(&str, &str)] =
-    &[("on", "active"), ("off", "inactive"), ("active", "on"), ("inactive", "off")];
-
-/// Words for what the manuals call otherwise.
-const SYNONYMS: &[(&str, &str)] = &[
-    ("totalizer", "total"),
-    ("totaliser", "total"),
-    ("totalizers", "total"),
-    ("math", "maths"),
-    ("event", "event"),
-    ("message", "event"),
-    ("default", "factory"),
-    ("defaults", "factory"),
-    ("factory", "factory"),
-    ("di", "digital"),
-    ("ai", "universal"),
-    ("analog", "universal"),
-    ("analogue", "universal"),
-    ("baudrate", "baud"),
-    ("parity", "character"),
-    ("parametrise", "parameters"),
-    ("diagnostics", "diagnosis"),
-    ("speed", "speed"),
-    ("reference", "reference"),
-    ("mapping", "mapping"),
-    ("float", "float"),
-    ("double", "double"),
-];
-
 impl Query {
-    fn of(text: &str) -> Self {
-        let typed = text.replace(['“', '”', '"'], " ");
-        let words: Vec<Word> = typed.split_whitespace().flat_map(parts).map(|word| Word::of(&word)).collect();
-        let says = |verbs: &[&str]| words.iter().any(|word| verbs.contains(&word.plain.as_str()));
-        let access = match (says(READ), says(WRITE)) {
-            (true, false) => Some(Access::Read),
-            (false, true) => Some(Access::Write),
-            // "read back" is said of writing, too.
-            _ => None,
-        };
-        let off = says(OFF);
-        Self { words, access, off }
-    }
-
-    /// How well a telegram of a function or service fits, if it does.
-    fn fit_telegram(&self, offer: &Offer) -> Option<i32> {
-        let (spec, code, direction) = match offer {
-            Offer::Telegram(kind) => (&kind.spec, u64::from(kind.function), kind.direction),
-            Offer::Service(kind) => (&kind.spec, kind.sap.map_or(u64::MAX, u64::from), kind.direction),
-            Offer::Task(_) => return None,
-        };
-        let names = [spec.label, spec.short];
-        let mut score = if direction == Direction::Request { 1 } else { 0 };
-        for word in &self.words {
-            let numbered = word.number.and_then(|number| number.whole) == Some(code);
-            let said = [NAME * i32::from(fold(spec.short) == word.plain), in_words(&names, &word.plain)];
-            let asked = [Direction::Request, Direction::Response]
-                .iter()
-                .any(|it| it.key() == word.plain && *it == direction);
-            score += match said.into_iter().max().unwrap_or_default() {
-                0 if numbered => ADDRESS,
-                0 if asked => WORD,
-                0 if word.stop || ["function", "fc", "sap"].contains(&word.plain.as_str()) => 0,
-                0 => return None,
-                said => said,
-            };
-        }
-        Some(score).filter(|_| !self.words.is_empty())
-    }
-
     /// How well a task fits, and what the words fill in.
-    fn fit_task(&self, task: &Task) -> Option<Fit> {
+    pub fn fit_task(&self, task: &Task) -> Option<Fit> {
         if self.words.is_empty()
             || self.access.is_some_and(|access| access != task.access) && !self.names(task)
         {
@@ -268,81 +44,6 @@ impl Query {
     }
 }
 
-impl Word {
-    fn of(text: &str) -> Self {
-        let plain = fold(text);
-        let verb = READ.contains(&plain.as_str()) || WRITE.contains(&plain.as_str());
-        let stop = verb || STOP.contains(&text) || plain.is_empty();
-        Self { text: text.to_owned(), verb, stop, number: Number::of(text), plain }
-    }
-}
-
-impl Number {
-    pub fn of(text: &str) -> Option<Self> {
-        let plain = text.replace('\u{2212}', "-").to_ascii_lowercase();
-        let hex = plain.strip_prefix("0x").or_else(|| plain.strip_suffix('h'));
-        if let Some(digits) = hex.filter(|digits| !digits.is_empty()) {
-            return u64::from_str_radix(digits, 16).ok().map(|whole| Self { whole: Some(whole), hex: true });
-        }
-        let digit = plain.bytes().any(|byte| byte.is_ascii_digit());
-        let numeric = plain.bytes().all(|byte| byte.is_ascii_digit() || b"+-.eE".contains(&byte));
-        let begins = plain.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
-        (digit && numeric && begins).then(|| Self { whole: plain.parse().ok(), hex: false })
-    }
-}
-
-/// A word and what is glued to it: "6=1.5" is three.
-fn parts(word: &str) -> Vec<String> {
-    let mut parts = Vec::new();
-    for (index, part) in word.split('=').enumerate() {
-        if index > 0 {
-            parts.push("=".to_owned());
-        }
-        let part = part.trim_matches(|c: char| ",:?!".contains(c));
-        if !part.is_empty() {
-            parts.push(part.to_owned());
-        }
-    }
-    parts
-}
-
-/// Letters and digits, small: `Sy.51`, `SY_51` and `sy51` are the same.
-pub(super) fn fold(text: &str) -> String {
-    text.chars().filter(char::is_ascii_alphanumeric).map(|c| c.to_ascii_lowercase()).collect()
-}
-
-/// The words of a label, folded.
-fn split(label: &str) -> impl Iterator<Item = String> {
-    label.split([' ', '_', ',', '-', '/', '(', ')']).map(fold).filter(|word| !word.is_empty())
-}
-
-/// How well `word` is one of these words, or a part of them.
-fn in_words(labels: &[&str], word: &str) -> i32 {
-    let meant = SYNONYMS.iter().find(|(said, _)| *said == word).map_or(word, |(_, meant)| *meant);
-    let singular = meant.strip_suffix('s').filter(|word| word.len() > 2).unwrap_or(meant);
-    let of = |label: &&str| {
-        if fold(label) == word || fold(label) == meant {
-            return NAME;
-        }
-        let words = split(label);
-        let score = |own: String| {
-            if own == word || own == meant {
-                WORD
-            } else if own == singular || own.strip_suffix('s') == Some(singular) {
-                WORD - 5
-            } else if !word.is_empty() && (own.starts_with(word) || own.starts_with(singular)) {
-                BEGINNING
-            } else {
-                0
-            }
-        };
-        let best = words.map(score).max().unwrap_or_default();
-        let inside = word.len() > 2 && fold(label).contains(word);
-        best.max(if inside { INSIDE } else { 0 })
-    };
-    labels.iter().filter(|label| !label.is_empty()).map(of).max().unwrap_or_default()
-}
-
 /// What a task is about.
 fn spec_of(task: &Task) -> &'static Spec {
     match task.target {
@@ -363,7 +64,7 @@ fn may_mean(task: &Task, word: &Word) -> bool {
         Target::Parameter(parameter) => (parameter.also, parameter.id, false),
     };
     let plain = word.plain.as_str();
-    let meant = SYNONYMS.iter().find(|(said, _)| *said == plain).map_or(plain, |(_, meant)| *meant);
+    let meant = meant(plain);
     let bits = spec.bits.iter().flat_map(|part| part.names.iter().map(|name| name.label).chain([part.label]));
     let names = spec.names.iter().map(|name| name.label).chain(bits);
     let noted =
@@ -597,8 +298,7 @@ impl<'a> Fitting<'a> {
         if said > 0 {
             return said.min(ALSO);
         }
-        let meant =
-            SYNONYMS.iter().find(|(said, _)| *said == word.plain).map_or(word.plain.as_str(), |it| it.1);
+        let meant = meant(&word.plain);
         let noted = notes.iter().any(|note| split(note).any(|own| own == word.plain || own == meant));
         if noted && word.plain.len() > 2 { NOTE } else { 0 }
     }
@@ -713,8 +413,7 @@ impl<'a> Fitting<'a> {
 
     /// Takes a word for the name of a value.
     fn take_value_name(&mut self, word: &Word) -> Option<i32> {
-        let meant =
-            SYNONYMS.iter().find(|(said, _)| *said == word.plain).map_or(word.plain.as_str(), |it| it.1);
+        let meant = meant(&word.plain);
         let state = STATES.iter().find(|(said, _)| *said == word.plain).map_or("", |(_, meant)| *meant);
         let fits = |label: &str| {
             split(label).any(|own| {
