@@ -19,7 +19,6 @@ use crate::components::chosen_byte::ChosenByte;
 use crate::components::copy_as::CopyAs;
 use crate::components::foot::{AboutIsOpen, Foot};
 use crate::components::page_tools::PageTools;
-use crate::components::telegram::Shown;
 use crate::views::build::{Build, BuildState};
 use crate::views::check::{Check, CheckState};
 use crate::views::devices::Devices;
@@ -40,7 +39,7 @@ pub enum Part {
 }
 
 /// What the later parts draw.
-#[derive(Clone)]
+#[derive(Clone, Copy)]
 pub enum Piece {
     Build,
     Check,
@@ -59,15 +58,15 @@ pub enum Piece {
     /// What the text tells beside its telegrams, or in their place.
     Beside,
     CopyAs,
-    Causes(Shown),
-    ChosenByte(Shown),
+    Causes,
+    ChosenByte,
     /// What is folded below a telegram.
     More,
 }
 
 impl Piece {
     /// The part that it is in.
-    const fn part(&self) -> Part {
+    const fn part(self) -> Part {
         match self {
             Self::Build | Self::Check | Self::Devices | Self::Sheet => Part::Views,
             Self::Learn => Part::Learn,
@@ -76,7 +75,7 @@ impl Piece {
     }
 
     /// Whether it is all that is asked for, and not something beside that.
-    const fn is_view(&self) -> bool {
+    const fn is_view(self) -> bool {
         matches!(self, Self::Build | Self::Check | Self::Devices | Self::Sheet | Self::Learn | Self::Log)
     }
 }
@@ -120,6 +119,7 @@ fn log() -> Result<Content, NotLoaded> {
     }
     fn draw(piece: Piece) -> AnyView {
         let read = expect_context::<ReadState>();
+        let shown = Signal::derive(move || read.shown());
         match piece {
             Piece::PageTools => view! { <PageTools /> }.into_any(),
             Piece::Foot => view! { <Foot /> }.into_any(),
@@ -128,14 +128,12 @@ fn log() -> Result<Content, NotLoaded> {
             Piece::ReadingChoices => view! { <ReadingChoices /> }.into_any(),
             Piece::ProposedDevice => view! { <ProposedDevice /> }.into_any(),
             Piece::Beside => view! { <Beside /> }.into_any(),
-            Piece::CopyAs => {
-                view! { <CopyAs shown=Signal::derive(move || read.shown()) at_end=true /> }.into_any()
-            }
-            Piece::Causes(shown) => {
+            Piece::CopyAs => view! { <CopyAs shown at_end=true /> }.into_any(),
+            Piece::Causes => {
                 let on_use = Callback::new(move |bytes| read.correct(bytes));
                 view! { <Causes shown on_use /> }.into_any()
             }
-            Piece::ChosenByte(shown) => view! { <ChosenByte shown lights=read.lights /> }.into_any(),
+            Piece::ChosenByte => view! { <ChosenByte shown lights=read.lights /> }.into_any(),
             Piece::More => view! { <More /> }.into_any(),
             _ => view! { <LogView /> }.into_any(),
         }
@@ -339,7 +337,7 @@ pub fn LaterPiece(piece: Piece) -> impl IntoView {
         // What is there stays there: a piece that comes and goes with each keystroke need not be told.
         let there = Some(stage.get_untracked()).filter(|stage| matches!(stage, Stage::There(_)));
         match there.unwrap_or_else(|| stage.get()) {
-        Stage::There(content) => (content.draw)(piece.clone()),
+        Stage::There(content) => (content.draw)(piece),
         // Nor is it waited for.
         _ if !piece.is_view() => ().into_any(),
         Stage::Not | Stage::Loading => {

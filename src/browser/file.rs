@@ -48,11 +48,12 @@ pub async fn text(file: &File, most: u32) -> Result<String, NotRead> {
     }
 }
 
-/// The file that was chosen in a field, which can then be chosen again.
-pub fn chosen(field: &HtmlInputElement) -> Option<File> {
-    let file = field.files()?.get(0);
+/// The files that were chosen in a field, where they can then be chosen again.
+pub fn chosen(field: &HtmlInputElement) -> Vec<File> {
+    let chosen = field.files();
+    let files = chosen.iter().flat_map(|files| (0..files.length()).filter_map(|at| files.get(at))).collect();
     field.set_value("");
-    file
+    files
 }
 
 /// Gives `text` to the person as a file to keep.

@@ -36,9 +36,14 @@ impl Lights {
         self.chosen.clear_subscribers();
     }
 
+    /// Whoever looks is told only where something was lit.
     pub fn clear(&self) {
-        self.pointed.set(None);
-        self.chosen.set(None);
+        if self.pointed.get_untracked().is_some() {
+            self.pointed.set(None);
+        }
+        if self.chosen.get_untracked().is_some() {
+            self.chosen.set(None);
+        }
     }
 
     /// Whether the pointer is over bytes of `span`.
@@ -71,13 +76,20 @@ pub struct Block {
     pub bytes: Vec<u8>,
 }
 
-/// After how many telegrams the blocks of those that are gone are forgotten.
-const LIGHTS_LAST: u32 = 32;
+impl Block {
+    /// What it is told apart by while a telegram is edited: all but what its bytes say.
+    fn place(&self) -> (Span, usize, String, String, &'static str) {
+        (self.span, self.bytes.len(), self.name.clone(), self.label.clone(), self.class)
+    }
+}
+
+/// After how many blocks made anew those that are gone are forgotten.
+const LIGHTS_LAST: u32 = 4096;
 
 /// More bytes than a telegram can have are not worth a cell each.
 const MOST: usize = 300;
 
-/// The strip.
+/// The strip. A field keeps its cells while its bytes are edited.
 #[component]
 pub fn ByteStrip(
     #[prop(into)] blocks: Signal<Vec<Block>>,
@@ -110,43 +122,63 @@ pub fn ByteStrip(
             choose(at);
         }
     };
-    let drawn = StoredValue::new(0_u32);
+    let made = StoredValue::new(0_u32);
     let shown = move || {
-        drawn.update_value(|drawn| *drawn += 1);
-        if drawn.get_value().is_multiple_of(LIGHTS_LAST) {
+        if made.get_value() > LIGHTS_LAST {
+            made.set_value(0);
             lights.forget();
         }
         blocks.with(|all| all.iter().filter(|block| block.span.from < MOST).cloned().collect::<Vec<_>>())
     };
-    let block = move |block: Block| {
-        let Block { name, label, caption, class, faulty, span, bytes } = block;
-        let cell = |(at, byte): (usize, u8)| {
+    let block = move |index: ReadSignal<usize>, first: Block| {
+        made.update_value(|made| *made += 1);
+        let (span, length, label) = (first.span, first.bytes.len(), first.label.clone());
+        let block = Memo::new(move |before: Option<&Block>| {
+            let now = blocks.with(|all| all.get(index.get()).cloned());
+            // One that is just being taken away stays as it was.
+            now.or_else(|| before.cloned()).unwrap_or_else(|| first.clone())
+        });
+        let class = move || {
+            let block = block.read();
+            let mut class = block.class.to_owned();
+            for (holds, name) in [
+                (block.faulty, " faulty"),
+                (lights.points_at(span), " pointed"),
+                (lights.holds(span), " chosen"),
+            ] {
+                class += if holds { name } else { "" };
+            }
+            class
+        };
+        let cell = |at: usize| {
             let (is_stop, is_chosen) = (is_stop.clone(), is_chosen.clone());
+            let byte = move || {
+                let byte = block.read().bytes.get(at - span.from).copied();
+                byte.map_or(String::new(), |byte| format!("{byte:02X}"))
+            };
             view! {
                 <button
                     type="button"
                     role="option"
                     tabindex=move || if is_stop.selected(&at) { "0" } else { "-1" }
                     aria-selected=move || is_chosen.selected(&Some(at)).to_string()
-                    aria-label=format!("{byte:02X}, {name}, byte {at}")
+                    aria-label=move || format!("{}, {}, byte {at}", byte(), block.read().name)
                     on:click=move |_| choose(at)
                 >
-                    {format!("{byte:02X}")}
+                    {byte}
                 </button>
             }
         };
+        let cells = (span.from..MOST).take(length).map(cell).collect_view();
         view! {
             <li
                 role="presentation"
                 class=class
-                class:faulty=faulty
-                class:pointed=move || lights.points_at(span)
-                class:chosen=move || lights.holds(span)
                 on:pointerenter=move |_| lights.pointed.set(Some(span))
             >
                 <span class="label" aria-hidden="true">{label}</span>
-                <span class="cells">{(span.from..MOST).zip(bytes).map(cell).collect_view()}</span>
-                <span class="caption" aria-hidden="true">{caption}</span>
+                <span class="cells">{cells}</span>
+                <span class="caption" aria-hidden="true">{move || block.read().caption.clone()}</span>
             </li>
         }
     };
@@ -166,7 +198,7 @@ pub fn ByteStrip(
             on:keydown=keys
             on:pointerleave=move |_| lights.pointed.set(None)
         >
-            <For each=shown key=Block::clone children=block />
+            <ForEnumerate each=shown key=Block::place children=block />
             {more}
         </ol>
     }

@@ -14,28 +14,31 @@ use buslens::tool::{Explanation, Options};
 /// The causes, best first. The first is open.
 #[component]
 pub fn Causes(
-    shown: Shown,
+    #[prop(into)] shown: Signal<Option<Shown>>,
     /// Puts the corrected bytes in the place of those that came, where that can be done.
     #[prop(optional)]
     on_use: Option<Callback<Vec<u8>>>,
 ) -> impl IntoView {
-    let warning = shown.report.undecidable(shown.index).map(|why| why.sentence() + ".");
-    let causes: Vec<_> = shown
-        .report
-        .explanations(shown.index)
-        .into_iter()
-        .enumerate()
-        .map(|(index, cause)| view! { <Cause shown=shown.clone() cause open=index == 0 on_use /> })
-        .collect();
-    (!causes.is_empty()).then(|| {
-        view! {
-            <section class="part causes">
-                <h3>"Possible causes"</h3>
-                {warning.map(|warning| view! { <p class="advice"><Icon glyph=Glyph::Warning />{warning}</p> })}
-                <ol>{causes}</ol>
-            </section>
-        }
-    })
+    move || {
+        let shown = shown.get()?;
+        let warning = shown.report.undecidable(shown.index).map(|why| why.sentence() + ".");
+        let causes: Vec<_> = shown
+            .report
+            .explanations(shown.index)
+            .into_iter()
+            .enumerate()
+            .map(|(index, cause)| view! { <Cause shown=shown.clone() cause open=index == 0 on_use /> })
+            .collect();
+        (!causes.is_empty()).then(|| {
+            view! {
+                <section class="part causes">
+                    <h3>"Possible causes"</h3>
+                    {warning.map(|warning| view! { <p class="advice"><Icon glyph=Glyph::Warning />{warning}</p> })}
+                    <ol>{causes}</ol>
+                </section>
+            }
+        })
+    }
 }
 
 #[component]
@@ -104,17 +107,19 @@ fn Corrected(shown: Shown, cause: Explanation, on_use: Option<Callback<Vec<u8>>>
     }
 }
 
-/// Bytes with those of `spans` marked.
+/// Bytes with those of `spans` marked. What is alike stands in one piece: it is drawn anew at each keystroke.
 #[component]
 fn Marked(bytes: Vec<u8>, spans: Vec<Span>, class: &'static str) -> impl IntoView {
-    let byte = |(at, byte): (usize, &u8)| {
-        let marked = spans.iter().any(|span| span.contains(at));
-        let text = format!("{byte:02X}");
-        match marked {
+    let is_marked = |at: usize| spans.iter().any(|span| span.contains(at));
+    let places: Vec<usize> = (0..bytes.len()).collect();
+    let piece = |places: &[usize]| {
+        let text = hex(&bytes[places[0]..places[0] + places.len()]);
+        match is_marked(places[0]) {
             true => view! { <mark class=class>{text}</mark> " " }.into_any(),
-            false => format!("{text} ").into_any(),
+            false => (text + " ").into_any(),
         }
     };
-    let cells: Vec<_> = bytes.iter().enumerate().map(byte).collect();
-    view! { <code>{cells}</code> }
+    let pieces: Vec<_> =
+        places.chunk_by(|one, next| is_marked(*one) == is_marked(*next)).map(piece).collect();
+    view! { <code>{pieces}</code> }
 }

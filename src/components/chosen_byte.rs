@@ -9,15 +9,14 @@ use super::toast::Toasts;
 use buslens::tool::byte::{Share, itself, shares};
 
 #[component]
-pub fn ChosenByte(shown: Shown, lights: Lights) -> impl IntoView {
+pub fn ChosenByte(#[prop(into)] shown: Signal<Option<Shown>>, lights: Lights) -> impl IntoView {
     let toasts = expect_context::<Toasts>();
-    let told = shown.clone();
     // The whole of it would be said at each key: which byte of what it is, is enough until somebody goes there.
     Effect::watch(
         move || lights.chosen.get(),
         move |chosen, _, _| {
-            let Some(at) = chosen.map(|chosen| chosen.at) else { return };
-            let places = shares(&told.detail, told.bytes(), at);
+            let Some((shown, chosen)) = shown.get_untracked().zip(*chosen) else { return };
+            let places = shares(&shown.detail, shown.bytes(), chosen.at);
             let places: Vec<_> = places.iter().map(|share| share.place.sentence()).collect();
             toasts.announce(places.join(", "));
         },
@@ -25,6 +24,7 @@ pub fn ChosenByte(shown: Shown, lights: Lights) -> impl IntoView {
     );
     move || {
         let at = lights.chosen.get()?.at;
+        let shown = shown.get()?;
         let byte = shown.bytes().get(at).copied()?;
         let shares: Vec<_> = shares(&shown.detail, shown.bytes(), at)
             .into_iter()

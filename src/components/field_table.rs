@@ -1,6 +1,7 @@
 //! The fields of a telegram as a table, groups to be opened and closed.
 
 use std::collections::HashSet;
+use std::sync::Arc;
 
 use leptos::ev::KeyboardEvent;
 use leptos::html;
@@ -12,18 +13,24 @@ use buslens::field::{Bits, Field, Message, Role, Span, Value, hex};
 use buslens::tool::{self, Detail};
 
 /// A row of the table.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Row {
-    /// Its place in the tree: `2.0.1`.
-    id: String,
-    depth: usize,
-    label: String,
-    class: &'static str,
+    place: Place,
     faulty: bool,
     span: Span,
     bytes: String,
     value: String,
     meaning: String,
+}
+
+/// What a row is told apart by while a telegram is edited: all but what its bytes say.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct Place {
+    /// In the tree: `2.0.1`.
+    id: String,
+    depth: usize,
+    label: String,
+    class: &'static str,
     note: &'static str,
     /// Whether it is open at first, where there is something to open.
     opens: Option<bool>,
@@ -32,7 +39,7 @@ pub struct Row {
 /// The table. Rows that follow from the same telegram keep their place while it is edited.
 #[component]
 pub fn FieldTable(
-    #[prop(into)] rows: Signal<Vec<Row>>,
+    #[prop(into)] rows: Signal<Vec<Arc<Row>>>,
     lights: Lights,
     /// What table this is, for screen readers.
     #[prop(into)]
@@ -42,15 +49,17 @@ pub fn FieldTable(
     // Groups that a person opened, or closed.
     let turned = RwSignal::new(HashSet::<String>::new());
     let is_open =
-        move |row: &Row| row.opens.map(|open| open != turned.with(|turned| turned.contains(&row.id)));
+        move |place: &Place| place.opens.map(|open| open != turned.with(|turned| turned.contains(&place.id)));
     let shown = Memo::new(move |_| rows.with(|rows| visible(rows, is_open)));
+    let widest = Memo::new(move |_| shown.with(|rows| widest(rows)));
     let stop = RwSignal::new(0_usize);
     // The row that Tab leads to.
     let stop_now = Memo::new(move |_| {
-        shown.with(|rows| rows.get(stop.get().min(rows.len().saturating_sub(1))).map(|row| row.id.clone()))
+        shown.with(|rows| {
+            rows.get(stop.get().min(rows.len().saturating_sub(1))).map(|row| row.place.id.clone())
+        })
     });
     let is_stop = Selector::new(move || stop_now.get());
-    let place = move |id: &str| shown.with(|rows| rows.iter().position(|row| row.id == id));
     let turn = move |id: String| {
         turned.update(|turned| {
             if !turned.remove(&id) {
@@ -73,8 +82,8 @@ pub fn FieldTable(
             }
             ("ArrowLeft" | "ArrowRight", Some(row)) => {
                 event.prevent_default();
-                if is_open(&row).is_some_and(|open| open == (key == "ArrowLeft")) {
-                    turn(row.id);
+                if is_open(&row.place).is_some_and(|open| open == (key == "ArrowLeft")) {
+                    turn(row.place.id.clone());
                 }
             }
             _ => {
@@ -88,19 +97,36 @@ pub fn FieldTable(
             }
         }
     };
-    let row = move |row: Row| {
-        let span = row.span;
-        let (id, opens) = (row.id.clone(), row.opens.is_some());
-        let (is_stop, this) = (is_stop.clone(), Some(row.id.clone()));
-        let expanded = {
-            let row = row.clone();
-            move || is_open(&row).map(|open| open.to_string())
+    let row = move |index: ReadSignal<usize>, first: Arc<Row>| {
+        let place = first.place.clone();
+        let row = Memo::new(move |before: Option<&Arc<Row>>| {
+            let now = shown.with(|rows| rows.get(index.get()).cloned());
+            // One that is just being taken away stays as it was.
+            now.or_else(|| before.cloned()).unwrap_or_else(|| first.clone())
+        });
+        let class = move || {
+            let row = row.read();
+            let is_own = |lit: Option<Span>| !row.span.is_empty() && lit == Some(row.span);
+            let mut class = row.place.class.to_owned();
+            for (holds, name) in [
+                (row.place.opens == Some(true), " group"),
+                (row.faulty, " faulty"),
+                (is_own(lights.pointed.get()), " pointed"),
+                (is_own(lights.chosen.get().map(|chosen| chosen.span)), " chosen"),
+            ] {
+                class += if holds { name } else { "" };
+            }
+            class
         };
-        let said = [row.value.as_str(), row.meaning.as_str()];
-        let held = said.into_iter().filter(|said| !said.is_empty()).collect::<Vec<_>>().join(", ");
+        let expanded = place.opens.is_some().then(|| {
+            let place = place.clone();
+            move || is_open(&place).map(|open| open.to_string())
+        });
+        let (is_stop, this) = (is_stop.clone(), Some(place.id.clone()));
+        let (id, opens) = (place.id, place.opens.is_some());
         let click = move |_| {
-            stop.set(place(&id).unwrap_or_default());
-            choose(span);
+            stop.set(index.get_untracked());
+            choose(row.read_untracked().span);
             if opens {
                 turn(id.clone());
             }
@@ -108,15 +134,9 @@ pub fn FieldTable(
         view! {
             <tr
                 role="row"
-                class=row.class
-                class:group=row.opens == Some(true)
-                class:faulty=row.faulty
-                class:pointed=move || !span.is_empty() && lights.pointed.get() == Some(span)
-                class:chosen=move || {
-                    !span.is_empty() && lights.chosen.get().is_some_and(|chosen| chosen.span == span)
-                }
-                style:--depth=row.depth.to_string()
-                on:pointerenter=move |_| lights.pointed.set(Some(span))
+                class=class
+                style:--depth=place.depth.to_string()
+                on:pointerenter=move |_| lights.pointed.set(Some(row.read_untracked().span))
             >
                 <th role="rowheader" scope="row">
                     <button
@@ -124,16 +144,16 @@ pub fn FieldTable(
                         tabindex=move || if is_stop.selected(&this) { "0" } else { "-1" }
                         aria-expanded=expanded
                         // Who goes from field to field by keys hears what it holds, too.
-                        aria-description=held
-                        title=row.note
+                        aria-description=move || row.read().held()
+                        title=place.note
                         on:click=click
                     >
-                        {row.label}
+                        {place.label}
                     </button>
                 </th>
-                <td role="cell" class="bytes">{row.bytes}</td>
-                <td role="cell" class="value">{row.value}</td>
-                <td role="cell" class="meaning">{row.meaning}</td>
+                <td role="cell" class="bytes">{move || row.read().bytes.clone()}</td>
+                <td role="cell" class="value">{move || row.read().value.clone()}</td>
+                <td role="cell" class="meaning">{move || row.read().meaning.clone()}</td>
             </tr>
         }
     };
@@ -143,6 +163,7 @@ pub fn FieldTable(
             class="table fields"
             role="table"
             aria-label=label
+            style:--bytes=move || widest.get().to_string()
             on:keydown=keys
             on:pointerleave=move |_| lights.pointed.set(None)
         >
@@ -155,28 +176,48 @@ pub fn FieldTable(
                 </tr>
             </thead>
             <tbody role="rowgroup" node_ref=body>
-                <For each=move || shown.get() key=Row::clone children=row />
+                <ForEnumerate each=move || shown.get() key=|row| row.place.clone() children=row />
             </tbody>
         </table>
     }
 }
 
+impl Row {
+    /// Value and meaning in one.
+    fn held(&self) -> String {
+        let said = [self.value.as_str(), self.meaning.as_str()];
+        said.into_iter().filter(|said| !said.is_empty()).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The same at another place of the tree.
+    fn at(mut self, id: String, depth: usize) -> Self {
+        (self.place.id, self.place.depth) = (id, depth);
+        self
+    }
+}
+
 /// The rows that are in no closed group.
-fn visible(rows: &[Row], is_open: impl Fn(&Row) -> Option<bool>) -> Vec<Row> {
+fn visible(rows: &[Arc<Row>], is_open: impl Fn(&Place) -> Option<bool>) -> Vec<Arc<Row>> {
     let mut shown = Vec::new();
     let mut closed_at = usize::MAX;
     for row in rows {
-        if row.depth > closed_at {
+        if row.place.depth > closed_at {
             continue;
         }
-        closed_at = if is_open(row) == Some(false) { row.depth } else { usize::MAX };
+        closed_at = if is_open(&row.place) == Some(false) { row.place.depth } else { usize::MAX };
         shown.push(row.clone());
     }
     shown
 }
 
+/// How many letters the column of bytes is wide. Those of a group may go on over what it leaves empty.
+fn widest(rows: &[Arc<Row>]) -> usize {
+    let held = rows.iter().filter(|row| !row.held().is_empty());
+    held.map(|row| row.bytes.chars().count()).max().unwrap_or_default().max("Bytes".len())
+}
+
 /// The rows of a telegram: its fields, and what the device's manual says in the place of bare registers.
-pub fn rows(detail: &Detail, bytes: &[u8]) -> Vec<Row> {
+pub fn rows(detail: &Detail, bytes: &[u8]) -> Vec<Arc<Row>> {
     let mut rows = Rows { rows: Vec::new(), blocks: &detail.device.blocks, bytes };
     for (index, field) in detail.fields.iter().enumerate() {
         rows.add(field, &index.to_string(), 0);
@@ -184,11 +225,11 @@ pub fn rows(detail: &Detail, bytes: &[u8]) -> Vec<Row> {
     // What is only asked for has no bytes of its own: it stands behind the address that names it.
     let asked: Vec<_> = rows.blocks.iter().filter(|block| !has_values(block)).collect();
     for (index, block) in asked.into_iter().enumerate().rev() {
-        let row = Row { id: format!("d{index}"), ..rows.of_block(block) };
+        let row = rows.of_block(block).at(format!("d{index}"), 0);
         let address = rows.rows.iter().position(|other| other.span == row.span);
         rows.rows.insert(address.map_or(0, |at| at + 1), row);
     }
-    rows.rows
+    rows.rows.into_iter().map(Arc::new).collect()
 }
 
 fn has_values(block: &tool::Block) -> bool {
@@ -217,7 +258,7 @@ impl<'a> Rows<'a> {
         {
             // It stands where its first byte is.
             if block.field.span.from == field.span.from {
-                let row = Row { id: id.to_owned(), depth, ..self.of_block(block) };
+                let row = self.of_block(block).at(id.to_owned(), depth);
                 self.rows.push(row);
                 self.within(&block.field, id, depth);
             }
@@ -231,7 +272,7 @@ impl<'a> Rows<'a> {
             }
             return;
         }
-        let row = Row { id: id.to_owned(), depth, ..self.of_field(field) };
+        let row = self.of_field(field).at(id.to_owned(), depth);
         self.rows.push(row);
         self.within(field, id, depth);
     }
@@ -245,7 +286,7 @@ impl<'a> Rows<'a> {
         }
         for (index, child) in field.children.iter().enumerate() {
             let id = format!("{id}.{index}");
-            self.rows.push(Row { id: id.clone(), depth: depth + 1, ..self.of_field(child) });
+            self.rows.push(self.of_field(child).at(id.clone(), depth + 1));
             self.within(child, &id, depth + 1);
         }
     }
@@ -258,17 +299,19 @@ impl<'a> Rows<'a> {
         // The meaning tells what is set: the bits are for those who want to know more.
         let has_parts = field.parts().next().is_some();
         Row {
-            id: String::new(),
-            depth: 0,
-            label: field.label().sentence(),
-            class: role_class(field.spec.role),
+            place: Place {
+                id: String::new(),
+                depth: 0,
+                label: field.label().sentence(),
+                class: role_class(field.spec.role),
+                note: field.spec.note,
+                opens: (has_parts || !field.children.is_empty()).then_some(!has_parts),
+            },
             faulty: is_faulty(field),
             span: field.span,
             bytes: hex(&run[..run.len().min(SHOWN)]) + more,
             value: field.value_text(),
             meaning: field.meaning().map_or(String::new(), |meaning| meaning.to_string()),
-            note: field.spec.note,
-            opens: (has_parts || !field.children.is_empty()).then_some(!has_parts),
         }
     }
 
@@ -285,7 +328,8 @@ impl<'a> Rows<'a> {
         parts.dedup();
         parts.retain(|part| *part != value);
         parts.extend(about.into_iter().flatten());
-        Row { label: block.label().sentence(), value, meaning: parts.join(" · "), ..row }
+        let place = Place { label: block.label().sentence(), ..row.place };
+        Row { place, value, meaning: parts.join(" · "), ..row }
     }
 }
 
@@ -304,10 +348,14 @@ fn of_part(part: &'static Bits, value: u64, field: &Field, id: String, depth: us
         None => "",
     };
     Row {
-        id,
-        depth,
-        label: Message::term(part.label).sentence(),
-        class: role_class(field.spec.role),
+        place: Place {
+            id,
+            depth,
+            label: Message::term(part.label).sentence(),
+            class: role_class(field.spec.role),
+            note: part.note,
+            opens: None,
+        },
         faulty: false,
         span: field.span,
         bytes: if part.count == 1 {
@@ -317,8 +365,6 @@ fn of_part(part: &'static Bits, value: u64, field: &Field, id: String, depth: us
         },
         value: value.to_string(),
         meaning: meaning.to_owned(),
-        note: part.note,
-        opens: None,
     }
 }
 
@@ -337,13 +383,13 @@ mod tests {
         let rows = rows(&report.detail(1).unwrap(), bytes);
         let all: Vec<String> = rows
             .iter()
-            .map(|row| format!("{}{} = {}", " ".repeat(row.depth), row.label, row.value))
+            .map(|row| format!("{}{} = {}", " ".repeat(row.place.depth), row.place.label, row.value))
             .collect();
         assert!(all.contains(&"Universal channel 1 = 82.4724".to_owned()), "{all:?}");
         assert!(!all.iter().any(|row| row.contains("Register 200")), "{all:?}");
-        let ids: HashSet<&String> = rows.iter().map(|row| &row.id).collect();
+        let ids: HashSet<&String> = rows.iter().map(|row| &row.place.id).collect();
         assert_eq!(ids.len(), rows.len(), "each row has a place of its own");
-        let closed = visible(&rows, |row| row.opens.map(|_| false));
-        assert!(closed.len() < rows.len() && closed.iter().all(|row| row.depth == 0), "{closed:?}");
+        let closed = visible(&rows, |place| place.opens.map(|_| false));
+        assert!(closed.len() < rows.len() && closed.iter().all(|row| row.place.depth == 0), "{closed:?}");
     }
 }

@@ -15,6 +15,7 @@ pub mod form;
 pub mod header;
 pub mod icon;
 pub mod menu;
+pub mod open_file;
 pub mod page_menu;
 pub mod page_tools;
 pub mod problems;

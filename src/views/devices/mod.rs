@@ -5,7 +5,6 @@ mod state;
 mod units;
 
 use leptos::ev::{self, KeyboardEvent};
-use leptos::html;
 use leptos::prelude::*;
 use leptos::wasm_bindgen::JsCast;
 use web_sys::{HtmlInputElement, HtmlSelectElement};
@@ -13,6 +12,7 @@ use web_sys::{HtmlInputElement, HtmlSelectElement};
 use crate::browser::file;
 use crate::components::form::{Edit, Form};
 use crate::components::icon::{Glyph, Icon};
+use crate::components::open_file::OpenFile;
 use buslens::tool::PROFILES;
 use buslens::tool::setup::{Difference, List};
 use rows::Rows;
@@ -173,7 +173,6 @@ fn Others() -> impl IntoView {
 #[component]
 fn Changes() -> impl IntoView {
     let state = expect_context::<DeviceSettings>();
-    let chooser = NodeRef::<html::Input>::new();
     let differences = Memo::new(move |_| state.differences());
     let row = move |Difference { said, what }: Difference| {
         let said = said.sentence();
@@ -191,16 +190,6 @@ fn Changes() -> impl IntoView {
                     "Undo"
                 </button>
             </li>
-        }
-    };
-    let open = move |_| {
-        if let Some(file) = chooser.get_untracked().and_then(|field| file::chosen(&field)) {
-            state.open(file);
-        }
-    };
-    let choose = move |_| {
-        if let Some(field) = chooser.get_untracked() {
-            field.click();
         }
     };
     let kept = move || match state.not_kept() {
@@ -255,18 +244,10 @@ fn Changes() -> impl IntoView {
                     <Icon glyph=Glyph::Save />
                     "Save as a file"
                 </button>
-                <button type="button" class="button" on:click=choose>
-                    <Icon glyph=Glyph::Open />
-                    "Open a file"
-                </button>
-                <input
-                    node_ref=chooser
-                    class="unseen"
-                    type="file"
-                    tabindex="-1"
-                    aria-hidden="true"
+                <OpenFile
+                    label="Open a file"
                     accept=".txt,text/plain"
-                    on:change=open
+                    on_open=Callback::new(move |file| state.open(file))
                 />
             </div>
             <details>

@@ -28,7 +28,7 @@ pub fn Rows(list: List, title: &'static str, about: &'static str) -> impl IntoVi
                 {mapping.then(|| view! { <Start list /> })}
             </header>
             <p class="note">{about}</p>
-            <table class="table" aria-label=title>
+            <table class="table" class:empty=move || rows.with(Vec::is_empty) aria-label=title>
                 <thead>
                     <tr>
                         <th scope="col">{if mapping { "Register" } else { "Word" }}</th>

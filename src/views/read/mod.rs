@@ -4,7 +4,6 @@ mod editor;
 mod examples;
 mod log;
 mod log_view;
-mod open_file;
 mod pictures;
 mod reading;
 mod start;
@@ -17,9 +16,9 @@ use leptos::prelude::*;
 
 use crate::browser::typing::{find_focus, is_typed_into};
 use crate::components::icon::{Glyph, Icon};
+use crate::components::open_file::OpenFile;
 use crate::later::{CouldNotLoad, Later, LaterPiece, Part, Piece};
 use editor::Editor;
-use open_file::OpenFile;
 use reading::ReadAs;
 use start::Welcome;
 use telegrams::Telegrams;
@@ -114,7 +113,7 @@ fn Input() -> impl IntoView {
                 <LaterPiece piece=Piece::ReadingChoices />
                 <div class="acts">
                     <LaterPiece piece=Piece::Examples />
-                    <OpenFile label="Open file" class="low" />
+                    <OpenFile label="Open file" class="low" on_open=read.opener() />
                     <Show when=move || read.mode() != Mode::Start>
                         <button type="button" class="button plain low" on:click=move |_| read.clear()>
                             <Icon glyph=Glyph::Close />

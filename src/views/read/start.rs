@@ -4,8 +4,8 @@ use leptos::prelude::*;
 
 use super::ReadState;
 use super::examples::FirstExamples;
-use super::open_file::OpenFile;
 use super::pictures::Pictures;
+use crate::components::open_file::OpenFile;
 
 /// What stands over the input.
 #[component]
@@ -19,7 +19,7 @@ pub fn Welcome() -> impl IntoView {
                         <strong>{name.clone()}</strong>
                         " was open at your last visit. This browser has not kept it: open it again."
                     </p>
-                    <OpenFile label=format!("Open {name}") class="main" />
+                    <OpenFile label=format!("Open {name}") class="main" on_open=read.opener() />
                 </div>
             }
         })

@@ -135,11 +135,8 @@ impl ReadState {
         });
         let lights = Lights::new();
         // What was chosen among the bytes of another telegram means nothing any more.
-        Effect::watch(
-            move || (index.get(), report.with(|report| report.0.telegrams.len())),
-            move |_, _, _| lights.clear(),
-            false,
-        );
+        let other = Memo::new(move |_| (index.get(), report.with(|report| report.0.telegrams.len())));
+        Effect::watch(move || other.get(), move |_, _, _| lights.clear(), false);
         Self {
             address,
             toasts,
@@ -379,6 +376,7 @@ impl ReadState {
         self.file.set(None);
         self.text_name.set(None);
         self.settling.set_value(None);
+        self.lights.clear();
         self.key.set(format!("text {:x}", hash(&text)));
         self.text.set(text.clone());
         self.settled.set(text);
@@ -405,6 +403,11 @@ impl ReadState {
     pub fn read_as(&self, set: impl FnOnce(&mut Choices)) {
         self.choices.update(set);
         self.address.chosen();
+    }
+
+    /// Opens the file that is chosen with a button.
+    pub fn opener(self) -> Callback<File> {
+        Callback::new(move |file| self.open(file))
     }
 
     /// Opens a file of any size.

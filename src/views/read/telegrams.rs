@@ -46,22 +46,15 @@ pub fn Telegrams() -> impl IntoView {
             <div class="columns">
                 <section class="fields-column" aria-label="Fields">
                     <Show when=move || wrong.get()>
-                        {move || read.shown().map(|shown| view! { <LaterPiece piece=Piece::Causes(shown) /> })}
+                        <LaterPiece piece=Piece::Causes />
                     </Show>
                     <FieldTable rows lights label="Fields" />
                     <LaterPiece piece=Piece::More />
                 </section>
                 <section class="rail" aria-label="Checksum and chosen byte">
-                    {move || {
-                        read.shown()
-                            .map(|shown| {
-                                view! {
-                                    <CheckResult shown=shown.clone() lights />
-                                    <LaterPiece piece=Piece::ChosenByte(shown.clone()) />
-                                    <Exchange shown />
-                                }
-                            })
-                    }}
+                    {move || read.shown().map(|shown| view! { <CheckResult shown lights /> })}
+                    <LaterPiece piece=Piece::ChosenByte />
+                    {move || read.shown().map(|shown| view! { <Exchange shown /> })}
                 </section>
             </div>
         </Show>

@@ -1,27 +1,16 @@
 //! Files: progress, and lessons of one's own.
 
-use leptos::html;
 use leptos::prelude::*;
 
 use super::state::{MOST_MISTAKES, Refused};
 use crate::browser::file;
 use crate::components::icon::{Glyph, Icon};
+use crate::components::open_file::OpenFile;
 use crate::views::learn::LearnState;
 
 #[component]
 pub fn Files() -> impl IntoView {
     let state = expect_context::<LearnState>().lessons;
-    let chooser = NodeRef::<html::Input>::new();
-    let choose = move |_| {
-        if let Some(chooser) = chooser.get_untracked() {
-            chooser.click();
-        }
-    };
-    let open = move |_| {
-        if let Some(file) = chooser.get_untracked().and_then(|chooser| file::chosen(&chooser)) {
-            state.open(file);
-        }
-    };
     let nothing = move || state.progress.with(|progress| progress.is_empty());
     view! {
         <section class="files" aria-label="Files">
@@ -30,10 +19,11 @@ pub fn Files() -> impl IntoView {
                 {move || state.not_kept.get().map(|why| why.sentence())}
             </p>
             <div class="actions">
-                <button type="button" class="button" on:click=choose>
-                    <Icon glyph=Glyph::Open />
-                    "Open a lesson or saved progress"
-                </button>
+                <OpenFile
+                    label="Open a lesson or saved progress"
+                    accept=".txt,text/plain"
+                    on_open=Callback::new(move |file| state.open(file))
+                />
                 <button
                     type="button"
                     class="button"
@@ -49,15 +39,6 @@ pub fn Files() -> impl IntoView {
                     <Icon glyph=Glyph::Undo />
                     "Begin anew"
                 </button>
-                <input
-                    node_ref=chooser
-                    class="unseen"
-                    type="file"
-                    tabindex="-1"
-                    aria-hidden="true"
-                    accept=".txt,text/plain"
-                    on:change=open
-                />
             </div>
         </section>
     }

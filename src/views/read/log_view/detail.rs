@@ -103,8 +103,8 @@ fn Telegram(shown: Shown, current: Arc<Current>) -> impl IntoView {
         </p>
         <Problems shown=shown.clone() lights />
         <ByteStrip blocks=Signal::stored(strip) lights size />
-        <ChosenByte shown=shown.clone() lights />
-        <Causes shown=shown.clone() />
+        <ChosenByte shown=Signal::stored(Some(shown.clone())) lights />
+        <Causes shown=Signal::stored(Some(shown.clone())) />
         <div class="acts">
             <CopyAs shown=Signal::stored(Some(shown.clone())) />
             <a class="button" href=href(View::Build, &link)>

@@ -13,11 +13,11 @@ use leptos::prelude::*;
 
 use super::ReadState;
 use super::log::Stage;
-use super::open_file::OpenFile;
 use super::times::stretch;
 use crate::browser::typing::go_to_field;
 use crate::components::icon::{Glyph, Icon};
 use crate::components::menu::{Menu, MenuItem, MenuLink};
+use crate::components::open_file::OpenFile;
 use crate::views::outgoing::{PassOn, Summary};
 use crate::worker::messages::{Export, Request};
 use buslens::field::many;
@@ -111,12 +111,13 @@ fn FileBar() -> impl IntoView {
                     <Icon glyph=Glyph::Close />
                     "Close"
                 </button>
-                <OpenFile label="Open another" class="plain" />
+                <OpenFile label="Open another" class="plain" on_open=read.opener() />
                 <Tools />
                 <Menu label="Export" glyph=Glyph::Save at_end=true>
                     {Export::FILES.map(export).into_iter().collect_view()}
                     <MenuItem on_choose=Callback::new(move |()| pass_on.set(true))>"A log to pass on"</MenuItem>
                     <MenuLink href="#/sheet">"A report to print"</MenuLink>
+                    <MenuLink href="#/learn?place=practice.read">"A task for learners"</MenuLink>
                 </Menu>
                 <button type="button" class="button main" on:click=sum_up>
                     <Icon glyph=Glyph::Mail />
