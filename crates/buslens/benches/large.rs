@@ -1,11 +1,11 @@
-//! `cargo bench --bench large -- 4`: logs of 1, 2 and 4 GB (without a number, of a quarter of that), read in parts as
-//! the page's worker does: when there is something to see, how long all of it takes, and what memory it took at most.
+//! `cargo bench --bench large -- 4`: logs of 1, 2 and 4 GB (1 GB at most without a number), read in parts as the page's
+//! worker does: when there is something to see, how long all of it takes, both in time of the processor, and what
+//! memory it takes at most.
 //!
 //! The logs repeat a day of telegrams, which is all that is in memory of them.
 
 use std::fs;
 use std::process::Command;
-use std::time::Instant;
 
 use buslens::field::hex;
 use buslens::tool::Options;
@@ -14,8 +14,10 @@ use buslens::tool::log::{BEGINNING, Filter, Input, Log, Reading, Source, Wanted}
 #[path = "../tests/logs/generator.rs"]
 #[allow(dead_code, reason = "the tests use the rest")]
 mod generator;
+mod time;
 
 use generator::{Random, exchange};
+use time::processor_time;
 
 /// A day of telegrams, again and again, up to some size.
 struct Repeated {
@@ -62,7 +64,7 @@ fn read(what: &str, file: &Repeated, input: Input) {
     const FIRST: usize = 1 << 20;
     const PIECE: usize = 4 << 20;
     let before = memory("VmRSS:");
-    let began = Instant::now();
+    let began = processor_time();
     let reading = Reading { input, ..Reading::default() };
     let beginning = file.read(0, BEGINNING);
     let mut log = Log::open(&beginning, file.size, &reading, Options::default()).expect("a log");
@@ -77,15 +79,15 @@ fn read(what: &str, file: &Repeated, input: Input) {
             log.look();
             let rows: Vec<u32> = (0..40).collect();
             assert!(!log.overview().headline.is_empty() && log.rows(file, &rows).len() == rows.len());
-            seen.get_or_insert_with(|| began.elapsed());
+            seen.get_or_insert_with(|| processor_time() - began);
         }
     }
     log.finish();
-    let whole = began.elapsed();
+    let whole = processor_time() - began;
     let telegrams = log.entries().len();
     let peak = memory("VmHWM:").saturating_sub(before);
     let wrong = Filter { wanted: Wanted::Errors, ..Filter::default() };
-    let answer = Instant::now();
+    let answer = processor_time();
     let found = log.filtered(&wrong, file, file.size).len();
     println!(
         "{what} of {:.2} GB, {:.1} million telegrams: first rows after {:.2} s, all after {:.1} s ({:.0} MB/s), {found} \
@@ -95,7 +97,7 @@ fn read(what: &str, file: &Repeated, input: Input) {
         seen.unwrap_or(whole).as_secs_f64(),
         whole.as_secs_f64(),
         file.size as f64 / 1e6 / whole.as_secs_f64(),
-        answer.elapsed().as_secs_f64(),
+        (processor_time() - answer).as_secs_f64(),
         peak as f64 / 1e6,
         log.memory() as f64 / telegrams as f64,
     );

@@ -8,9 +8,8 @@
 //! All take turns, and the best round of each counts: what else runs on the machine is the same for all of them.
 //! Words behind `--` choose: `stream`, or what stands in the first line of a text.
 
-use std::fs;
 use std::hint::black_box;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use buslens::field::Direction;
 use buslens::tool::Options;
@@ -25,9 +24,11 @@ mod generator;
 #[path = "../tests/logs/programs.rs"]
 #[allow(dead_code, reason = "the tests use the rest")]
 mod programs;
+mod time;
 
 use generator::{Random, exchange_of, exchanges};
 use programs::{PROGRAMS, Program};
+use time::processor_time;
 
 const TELEGRAMS: usize = 200_000;
 
@@ -128,21 +129,13 @@ fn text(program: &Program) -> String {
 
 /// The time of the processor that each work takes, at its best of some rounds in turns.
 fn in_turns<const N: usize>(rounds: usize, mut works: [&mut dyn FnMut() -> usize; N]) -> [Duration; N] {
-    let began = Instant::now();
     let mut best = [Duration::MAX; N];
     for _ in 0..rounds {
         for (best, work) in best.iter_mut().zip(&mut works) {
-            let start = time(began);
+            let start = processor_time();
             black_box(work());
-            *best = (time(began) - start).min(*best);
+            *best = (processor_time() - start).min(*best);
         }
     }
     best
-}
-
-/// The time of the processor that this thread took, where the system tells it; else the time since `began`.
-fn time(began: Instant) -> Duration {
-    let told = fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let nanoseconds = told.and_then(|told| told.split_whitespace().next()?.parse().ok());
-    nanoseconds.map_or_else(|| began.elapsed(), Duration::from_nanos)
 }

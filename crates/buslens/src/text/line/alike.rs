@@ -16,6 +16,7 @@ use crate::text::dump::has_offset;
 #[derive(Debug, Default)]
 pub struct Alike {
     /// Those that were of use more often stand rather before the others.
+    #[expect(clippy::vec_box, reason = "they change their places often")]
     patterns: Vec<Box<Pattern>>,
     /// How many patterns were learned since one was of use.
     idle: usize,
