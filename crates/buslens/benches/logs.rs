@@ -5,12 +5,11 @@
 //! telegrams are requests and which responses; it is asked for lengths and checks, which is the
 //! least that splitting needs, and keeps nothing. Then the text of each program that the tests know.
 //!
-//! All take turns, and the best round of each counts: what else runs on the machine is the same for all of them. A
-//! word behind `--` leaves out what has it not in its name.
+//! All take turns, and the best round of each counts: what else runs on the machine is the same for all of them.
+//! Words behind `--` choose: `stream`, or what stands in the first line of a text.
 
-use std::fs;
 use std::hint::black_box;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use buslens::field::Direction;
 use buslens::tool::Options;
@@ -25,9 +24,11 @@ mod generator;
 #[path = "../tests/logs/programs.rs"]
 #[allow(dead_code, reason = "the tests use the rest")]
 mod programs;
+mod time;
 
 use generator::{Random, exchange_of, exchanges};
 use programs::{PROGRAMS, Program};
+use time::processor_time;
 
 const TELEGRAMS: usize = 200_000;
 
@@ -37,14 +38,12 @@ const FUNCTIONS: &[u8] = &[1, 2, 3, 3, 3, 4, 5, 6, 15, 16];
 const MOST_REGISTERS: usize = 16;
 
 fn main() {
-    let wanted = std::env::args().skip(1).find(|word| !word.starts_with("--"));
-    let wants = |name: &str| wanted.as_ref().is_none_or(|wanted| name.contains(wanted.as_str()));
+    let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with("--")).collect();
+    let wants = |name: &str| words.is_empty() || words.iter().any(|word| name.contains(word.as_str()));
     if wants("stream") {
         streams();
     }
-    if wants("text") {
-        texts();
-    }
+    texts(wants);
 }
 
 fn streams() {
@@ -93,24 +92,28 @@ fn with_rmodbus(stream: &[u8]) -> usize {
     found
 }
 
-fn texts() {
+fn texts(wants: impl Fn(&str) -> bool) {
     const ROUNDS: usize = 5;
-    let texts: Vec<String> = PROGRAMS.iter().map(text).collect();
+    const SHOWN: usize = 80;
     let read = |text: &str| {
         Log::read(text.as_bytes(), &Reading::default(), Options::default()).expect("a log").entries().len()
     };
     let mut each: Vec<f64> = Vec::new();
-    println!("texts of {} programs, in nanoseconds a byte; the beginning of each:", texts.len());
-    for text in &texts {
-        let [time] = in_turns(ROUNDS, [&mut || read(black_box(text))]);
-        let cost = time.as_nanos() as f64 / text.len() as f64;
-        let beginning: String = text.lines().next().unwrap_or_default().chars().take(80).collect();
-        println!("  {cost:5.1}  {beginning}");
-        each.push(cost);
+    for text in PROGRAMS.iter().map(text) {
+        let line = text.lines().next().unwrap_or_default();
+        if !wants(line) {
+            continue;
+        }
+        let [time] = in_turns(ROUNDS, [&mut || read(black_box(&text))]);
+        each.push(time.as_nanos() as f64 / text.len() as f64);
+        let beginning: String = line.chars().take(SHOWN).collect();
+        println!("{:5.1} ns a byte of text: {beginning}", each[each.len() - 1]);
     }
     each.sort_by(f64::total_cmp);
-    let mean = each.iter().sum::<f64>() / each.len() as f64;
-    println!("  {mean:.1} in the mean, {:.1} in the middle", each[each.len() / 2]);
+    if let Some(middle) = each.get(each.len() / 2) {
+        let mean = each.iter().sum::<f64>() / each.len() as f64;
+        println!("{mean:5.1} in the mean of {} texts, {middle:.1} in the middle", each.len());
+    }
 }
 
 /// 40,000 telegrams as a program writes them.
@@ -126,21 +129,13 @@ fn text(program: &Program) -> String {
 
 /// The time of the processor that each work takes, at its best of some rounds in turns.
 fn in_turns<const N: usize>(rounds: usize, mut works: [&mut dyn FnMut() -> usize; N]) -> [Duration; N] {
-    let began = Instant::now();
     let mut best = [Duration::MAX; N];
     for _ in 0..rounds {
         for (best, work) in best.iter_mut().zip(&mut works) {
-            let start = time(began);
+            let start = processor_time();
             black_box(work());
-            *best = (time(began) - start).min(*best);
+            *best = (processor_time() - start).min(*best);
         }
     }
     best
-}
-
-/// The time of the processor that this thread took, where the system tells it; else the time since `began`.
-fn time(began: Instant) -> Duration {
-    let told = fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let nanoseconds = told.and_then(|told| told.split_whitespace().next()?.parse().ok());
-    nanoseconds.map_or_else(|| began.elapsed(), Duration::from_nanos)
 }

@@ -40,21 +40,24 @@ impl Waiting {
     ///
     /// [`told`]: Splitter::told
     #[inline]
-    pub fn behind(before: Option<&Self>, unit: u8, function: u8, told: Option<Told>) -> Option<Self> {
+    pub fn behind(before: Option<&Self>, unit: u8, function: u8, told: Told) -> Option<Self> {
         let function = function & !EXCEPTION;
-        let Some(Told { sides: [asks, answers], answer }) = told else {
-            // Of a function that is not known, nothing tells whether it asks.
+        let Told { known, sides: [asks, answers], answer } = told;
+        // Of a function that is not known, nothing tells whether it asks.
+        if !known && !asks && !answers {
             return Some(Self { unit, function, length: None });
-        };
+        }
         let awaited = before.is_some_and(|it| (it.unit, it.function) == (unit, function));
         let length = answer.map(|length| (length + AROUND) as u16);
         (asks && !(answers && awaited)).then_some(Self { unit, function, length })
     }
 }
 
-/// What a PDU says whose function is known.
+/// What a PDU says.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Told {
+    /// See [`Splitter::knows`].
+    pub known: bool,
     /// See [`Splitter::sides`].
     pub sides: [bool; 2],
     /// See [`Splitter::answer_length`].
@@ -192,18 +195,21 @@ impl Splitter {
         })
     }
 
-    /// What a PDU says, if its function is known.
+    /// What a PDU says.
     #[inline]
-    pub fn told(&self, pdu: &[u8]) -> Option<Told> {
-        let function = *pdu.first()?;
-        let rules = self.rule(function & !EXCEPTION)?;
-        Some(match function & EXCEPTION {
-            0 => Told {
+    pub fn told(&self, pdu: &[u8]) -> Told {
+        let Some(function) = pdu.first().copied() else { return Told::default() };
+        match self.rule(function & !EXCEPTION) {
+            rules if function & EXCEPTION != 0 => {
+                Told { known: rules.is_some(), sides: [false, pdu.len() == 2], answer: None }
+            }
+            Some(rules) => Told {
+                known: true,
                 sides: [rules.request.fits(pdu), rules.response.fits(pdu)],
                 answer: rules.answer_length(pdu),
             },
-            _ => Told { sides: [false, pdu.len() == 2], answer: None },
-        })
+            None => Told::default(),
+        }
     }
 
     /// Finds the RTU frames that follow each other from the beginning of `bytes` on, as [`begins`](Self::begins) does
@@ -223,8 +229,7 @@ impl Splitter {
             let (unit, function) = (telegram[0], telegram[1]);
             let told = self.told(&telegram[1..length - 2]);
             awaited = Waiting::behind(awaited.as_ref(), unit, function, told);
-            let sides = told.unwrap_or_default().sides;
-            found.push(Framed { length: length as u16, unit, function, sides });
+            found.push(Framed { length: length as u16, unit, function, sides: told.sides });
             at += length;
         }
         *waiting = awaited;

@@ -40,6 +40,10 @@ pub struct Scan {
     pub column: bool,
     /// Characters within runs that are no hex, as slips of typing are.
     pub slips: usize,
+    /// Where bytes stand as pairs of hex digits at equal distances, if that is known: see [`Piece::pairs`].
+    ///
+    /// [`Piece::pairs`]: super::Piece::pairs
+    pub pairs: Option<(usize, u8)>,
     /// Who speaks, by words anywhere in the line.
     pub sender: Option<(Sender, Weight)>,
     /// The line calls for both: `Request | Response`.
@@ -197,7 +201,7 @@ impl Scan {
         (self.ends, self.arrow, self.time_place) = ([None; 2], None, None);
         (self.strong, self.weak, self.words, self.words_since) = (None, None, 0, 0);
         (self.of_telegrams, self.of_leftovers, self.slips, self.column) = (false, false, 0, false);
-        (self.last_word, self.unclosed) = (None, [false; 2]);
+        (self.last_word, self.unclosed, self.pairs) = (None, [false; 2], None);
         self.breaks.clear();
     }
 

@@ -428,6 +428,10 @@ impl Reader {
         let numbers = form.numbers.unwrap_or(Numbers::Hex);
         let bytes = scan.bytes(run, numbers);
         let decimal = scan.decimal_bytes(run).filter(|decimal| form.numbers.is_none() && *decimal != bytes);
+        let places = &scan.places[run.first..run.end];
+        // Of another run of the line, that is not known.
+        let is_known = |(from, _): &(usize, u8)| places.first().is_some_and(|first| first.to == from + 2);
+        let pairs = scan.pairs.filter(is_known).or_else(|| pairs(line, bytes, places));
         let counted = header.is_some_and(|header| header.number == run.len()) || scan.is_counted(line, run);
         let facts = Facts {
             colon: run.colon,
@@ -446,8 +450,8 @@ impl Reader {
             bytes,
             decimal,
             breaks,
-            places: &scan.places[run.first..run.end],
-            pairs: pairs(line, bytes, &scan.places[run.first..run.end]),
+            places,
+            pairs,
             line: self.line,
             offset: self.offset,
             time: context

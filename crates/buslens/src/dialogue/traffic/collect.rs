@@ -568,8 +568,8 @@ impl Traffic {
         };
         let Some(function) = pdu.first().copied() else { return Said { unit, ..Said::default() } };
         let told = self.splitter.told(pdu);
-        let mut sides = told.unwrap_or_default().sides;
-        if sides == [false; 2] && told.is_some() && hint == Hint::None {
+        let mut sides = told.sides;
+        if sides == [false; 2] && told.known && hint == Hint::None {
             // The direction whose length it misses by less.
             let waiting = self.waiting[usize::from(port)];
             let awaited = waiting.is_some_and(|it| Some(it.unit) == unit && it.function == function);
@@ -580,8 +580,7 @@ impl Traffic {
             let unit = unit.unwrap_or_default();
             self.see(unit, function);
             let waiting = &mut self.waiting[usize::from(port)];
-            let told = told.map(|told| Told { sides, ..told });
-            *waiting = Waiting::behind(waiting.as_ref(), unit, function, told);
+            *waiting = Waiting::behind(waiting.as_ref(), unit, function, Told { sides, ..told });
         }
         Said { unit, function, sides }
     }

@@ -15,17 +15,16 @@ use crate::text::dump::has_offset;
 /// The patterns of a text.
 #[derive(Debug, Default)]
 pub struct Alike {
-    patterns: Vec<Pattern>,
-    /// The one to be replaced next.
-    oldest: usize,
+    /// Those that were of use more often stand rather before the others.
+    #[expect(clippy::vec_box, reason = "they change their places often")]
+    patterns: Vec<Box<Pattern>>,
     /// How many patterns were learned since one was of use.
     idle: usize,
 }
 
 #[derive(Debug)]
 struct Pattern {
-    /// What stands before the bytes, with a [`HOLE`] for each digit that may be another one.
-    head: Vec<u8>,
+    head: Head,
     /// The time in it.
     time: Option<Span>,
     /// The bytes of numbers in it that may be others.
@@ -43,6 +42,16 @@ struct Pattern {
     scan: Scan,
 }
 
+/// What stands before the bytes, where some digits may be other ones.
+#[derive(Debug)]
+struct Head {
+    /// With a [`HOLE`] for each of these.
+    text: Vec<u8>,
+    /// The same in words of eight characters, the last one filled up with what stands before it: what they have to be,
+    /// and the characters of these digits.
+    words: Vec<[u64; 2]>,
+}
+
 /// Stands for any digit.
 const HOLE: u8 = 0;
 
@@ -52,17 +61,18 @@ const SHORTEST: usize = 5;
 impl Alike {
     /// Reads a line, if it is like one before.
     pub fn read(&mut self, line: &[u8], scan: &mut Scan) -> bool {
-        let read = self.patterns.iter().any(|pattern| pattern.read(line, scan));
-        if read {
-            self.idle = 0;
-        }
-        read
+        let Some(place) = self.patterns.iter().position(|pattern| pattern.read(line, scan)) else {
+            return false;
+        };
+        self.patterns.swap(place.saturating_sub(1), place);
+        self.idle = 0;
+        true
     }
 
     /// `line` was read into `scan`: others may be like it.
     pub fn learn(&mut self, line: &[u8], scan: &Scan) {
-        /// Request and response, of a few units or ports.
-        const MOST: usize = 16;
+        /// Request and response, of a few units or ports, each with some lengths.
+        const MOST: usize = 64;
         /// Where so many were of no use, few more are tried.
         const USELESS: usize = 64;
         /// Longer ones are no lines of a log, and their patterns would take memory.
@@ -71,18 +81,58 @@ impl Alike {
             return;
         }
         if self.idle > USELESS {
+            self.patterns.clear();
             self.idle = if self.idle > 2 * USELESS { USELESS - 1 } else { self.idle + 1 };
             return;
         }
         let Some(pattern) = Pattern::of(line, scan) else { return };
         self.idle += 1;
-        if self.patterns.len() < MOST {
-            return self.patterns.push(pattern);
+        if self.patterns.len() == MOST {
+            self.patterns.pop();
         }
-        self.patterns[self.oldest] = pattern;
-        self.oldest = (self.oldest + 1) % MOST;
+        self.patterns.push(Box::new(pattern));
     }
 }
+
+impl Head {
+    fn new(text: Vec<u8>) -> Self {
+        let words = (0..text.len()).step_by(WORD).map(|at| {
+            let word = &text[at.min(text.len().saturating_sub(WORD))..];
+            let each = |of: fn(u8) -> u8| {
+                word.iter().take(WORD).rev().fold(0, |word, c| word << 8 | u64::from(of(*c)))
+            };
+            [each(|c| if c == HOLE { b'0' } else { c }), each(|c| if c == HOLE { 0x0F } else { 0 })]
+        });
+        let words = words.collect();
+        Self { text, words }
+    }
+
+    /// Whether a line begins so; what comes behind that, if it does.
+    #[inline]
+    fn split<'a>(&self, line: &'a [u8]) -> Option<(&'a [u8], &'a [u8])> {
+        const SIXES: u64 = u64::MAX / 0xFF * 6;
+        const CARRIES: u64 = u64::MAX / 0xFF * 0x10;
+        let length = self.text.len();
+        let (before, behind) = line.split_at_checked(length)?;
+        let fits = |word: u64, [text, digits]: [u64; 2]| {
+            // A digit is 30h and no more than 9; six more than that carries nothing over.
+            (word ^ text) & !digits == 0 && ((word & digits) + (SIXES & digits)) & CARRIES == 0
+        };
+        let word = |at: usize| {
+            let at = at.min(length.saturating_sub(WORD));
+            let word = before[at..].iter().take(WORD);
+            match before[at..].first_chunk() {
+                Some(word) => u64::from_le_bytes(*word),
+                None => word.rev().fold(0, |word, c| word << 8 | u64::from(*c)),
+            }
+        };
+        let all = self.words.iter().enumerate().all(|(nth, own)| fits(word(nth * WORD), *own));
+        all.then_some((before, behind))
+    }
+}
+
+/// So many characters are compared at a time.
+const WORD: usize = 8;
 
 impl Pattern {
     fn of(line: &[u8], scan: &Scan) -> Option<Self> {
@@ -143,20 +193,21 @@ impl Pattern {
         }
         let numbers = (0..run.first).filter(|at| head[scan.places[*at].from] == HOLE).collect();
         let (mark, gap, tail) = (mark.to_vec(), gap.to_vec(), tail.to_vec());
+        let head = Head::new(head);
         Some(Self { head, time, numbers, mark, gap, tail, length, run: index, scan: scan.clone() })
     }
 
     fn read(&self, line: &[u8], scan: &mut Scan) -> bool {
         let Self { head, mark, gap, tail, .. } = self;
-        let Some((before, bytes)) = line.split_at_checked(head.len()) else { return false };
-        let other = |(a, b): (&u8, &u8)| if *a == HOLE { !is_digit(*b) } else { a != b };
-        if head.iter().zip(before).any(other) || !(tail.is_empty() || bytes.ends_with(tail)) {
+        let around = head.text.len() + tail.len();
+        if self.length.is_some_and(|length| line.len() != around + length) {
             return false;
         }
-        let own = &bytes[..bytes.len() - tail.len()];
+        let Some((_, bytes)) = head.split(line) else { return false };
+        let Some(own) = bytes.strip_suffix(tail.as_slice()) else { return false };
         let (step, whole) = (mark.len() + 2 + gap.len(), own.len() + gap.len());
-        let (count, as_many) = (whole / step, self.length.is_none_or(|length| length == own.len()));
-        if !as_many || whole % step != 0 || count < SHORTEST || (gap.is_empty() && is_value(own)) {
+        let count = whole / step;
+        if whole % step != 0 || count < SHORTEST || (gap.is_empty() && is_value(own)) {
             return false;
         }
         let time = match self.time {
@@ -169,7 +220,7 @@ impl Pattern {
         scan.like(&self.scan);
         let Scan { hex, decimal, places, runs, .. } = scan;
         let run = &mut runs[self.run];
-        let (from, first, fixed) = (head.len(), run.first, self.length.is_some());
+        let (from, first, fixed) = (head.text.len(), run.first, self.length.is_some());
         if !fixed {
             hex.truncate(first);
             decimal.truncate(first);
@@ -230,6 +281,7 @@ impl Pattern {
             hex[*at] = DIGITS[usize::from(digits[0])] << 4 | DIGITS[usize::from(digits[1])];
         }
         scan.time = time;
+        scan.pairs = u8::try_from(step).ok().map(|step| (from + mark.len(), step));
         true
     }
 }
@@ -375,8 +427,11 @@ mod tests {
             scan.read(line.as_bytes(), Start::default(), Some(Numbers::Hex));
             alike.learn(line.as_bytes(), &scan);
         }
-        assert!(alike.patterns.len() <= 16);
-        assert!(alike.patterns.iter().all(|pattern| pattern.head.len() > 50), "the oldest ones are replaced");
+        assert!(alike.patterns.len() <= 64);
+        assert!(
+            alike.patterns.iter().all(|pattern| pattern.head.text.len() > 50),
+            "those of no use are dropped"
+        );
         let mut alike = Alike::default();
         for (bytes, learned) in [(1360, 1), (1370, 0)] {
             let line = format!("tx {}", "01 ".repeat(bytes));
