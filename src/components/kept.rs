@@ -45,3 +45,24 @@ where
         now
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_stays_keeps_its_signal() {
+        let owner = Owner::new();
+        owner.set();
+        let all = StoredValue::new(vec![("a", 1), ("b", 2), ("c", 3)]);
+        let items = kept(move || all.get_value(), |item| item.0);
+        let first = items();
+        // Another stands before them, one is gone, one holds something else.
+        all.set_value(vec![("n", 0), ("c", 3), ("b", 7)]);
+        let then = items();
+        let held: Vec<_> = then.iter().map(|kept| kept.item.get_untracked()).collect();
+        assert_eq!(held, [("n", 0), ("c", 3), ("b", 7)]);
+        assert_eq!(first[1].item.get_untracked(), ("b", 7), "who listens to b is told");
+        assert_eq!(first[0].item.get_untracked(), ("a", 1), "what is gone stays as it was");
+    }
+}
