@@ -4,6 +4,7 @@ use buslens_trainer::Answer;
 use buslens_trainer::lesson::{Ask, Exercise, LESSONS, Lesson, Step, read};
 use page_tests::{DESKTOP, NARROW, PHONE, Page, Result};
 use serde_json::json;
+use thirtyfour::prelude::*;
 
 fn lessons() -> Vec<Lesson> {
     LESSONS.iter().map(|text| read(text).0).collect()
@@ -81,15 +82,15 @@ async fn every_lesson_is_finished_wrongly_and_rightly() -> Result {
             step(&page, &lesson, number).await?;
             give(&page, exercise, &wrong(this, exercise, &right)).await?;
             let place = format!("{}.{number}", lesson.key);
-            assert_eq!(page.count(".task .outcome.off").await?, 1, "{place}: a wrong answer");
-            let said = page.text(".task .outcome.off").await?;
+            assert_eq!(page.count(".task .said:is(.wrong, .unread)").await?, 1, "{place}: a wrong answer");
+            let said = page.text(".task .said:is(.wrong, .unread)").await?;
             assert!(said.len() > 12, "{place}: {said}");
             give(&page, exercise, &right).await?;
             assert_eq!(
-                page.count(".task .outcome.right").await?,
+                page.count(".task .said.right").await?,
                 1,
                 "{place}: the right answer, but {:?}",
-                page.texts(".task .outcome").await?
+                page.texts(".task .said").await?
             );
         }
         assert_eq!(page.accessibility().await?, [""; 0], "{}", lesson.key);
@@ -131,14 +132,14 @@ async fn hints_come_one_by_one() -> Result {
     assert_eq!(page.count(".hints li").await?, 3);
     page.press_button("Fill in the answer").await?;
     page.press_button("Check my answer").await?;
-    page.until(".outcome.right", "6 × 16 + 4 = 100.").await?;
+    page.until(".said.right", "6 × 16 + 4 = 100.").await?;
     assert_eq!(page.accessibility().await?, [""; 0]);
     page.picture("lesson-phone-dark").await?;
     page.press_button("Next step").await?;
     page.until(".step h2", "Two bytes, one number").await?;
     // Back leads to the step before, with what was typed there.
     page.driver.back().await?;
-    page.until(".outcome.right", "6 × 16 + 4 = 100.").await?;
+    page.until(".said.right", "6 × 16 + 4 = 100.").await?;
     page.close().await
 }
 
@@ -154,6 +155,109 @@ async fn two_sides_take_turns() -> Result {
     page.until(".spoken", "the job is done").await?;
     assert_eq!(page.value(shown).await?, json!(4));
     assert_eq!(page.accessibility().await?, [""; 0]);
+    page.close().await
+}
+
+/// A start-up that fails, step by step, and the telegram that was to blame, made right.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_start_up_is_stepped_through_and_mended() -> Result {
+    let page = Page::open_at("#/learn?place=lessons.startup.3", DESKTOP, false).await?;
+    page.until(".spoken", "another device").await?;
+    for _ in 0..3 {
+        page.press_button("Next").await?;
+    }
+    page.until(".spoken", "Only here it says: not ready, parameter fault").await?;
+    let shown = "return [...document.querySelectorAll('.sides > ol > li:not([hidden])')].length";
+    assert_eq!(page.value(shown).await?, json!(4));
+    page.picture("lesson-startup-desktop-light").await?;
+    page.go("#/learn?place=lessons.startup.8").await?;
+    page.until(".task h3", "Make Set_Prm right").await?;
+    page.press_button("Check my answer").await?;
+    page.until(".task .said.wrong", "05EBh").await?;
+    let mended = "68 0C 0C 68 81 82 5D 3D 3E B8 0A 14 0B 05 EB 00 7F 16";
+    page.fill(".task .typed input", mended).await?;
+    page.press_button("Check my answer").await?;
+    page.until(".task .said.wrong", "over your bytes it is AC").await?;
+    page.fill(".task .typed input", &mended.replace("7F", "AC")).await?;
+    page.press_button("Check my answer").await?;
+    page.until(".task .said.right", "Right").await?;
+    page.close().await
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn where_the_checksum_is_asked_for_the_page_adds_none() -> Result {
+    let page = Page::open_at("#/learn?place=lessons.crc.6", PHONE, false).await?;
+    page.fill(".task .typed input", "02 07").await?;
+    page.until(".task .byte-strip", "02").await?;
+    assert_eq!(page.count(".task .note").await?, 0);
+    page.press_button("Check my answer").await?;
+    page.until(".task .said.wrong", "Its checksum is missing").await?;
+    page.fill(".task .typed input", "02 07 41 12").await?;
+    page.press_button("Check my answer").await?;
+    page.until(".task .said.right", "in the standard").await?;
+    page.close().await
+}
+
+/// Goes on with Tab until what has the focus is found by `css`.
+async fn tab_to(page: &Page, css: &str) -> Result {
+    for _ in 0..60 {
+        page.press(Key::Tab + "").await?;
+        if page.value(&format!("return document.activeElement.matches('{css}')")).await? == json!(true) {
+            return Ok(());
+        }
+    }
+    panic!("Tab does not lead to {css}");
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_lesson_is_done_by_keyboard_alone() -> Result {
+    let page = Page::open_at("#/learn?place=lessons.bytes.1", DESKTOP, true).await?;
+    let lesson = &lessons()[0];
+    for (step, number) in lesson.steps.iter().zip(1..) {
+        page.until(".step h2", &step.title).await?;
+        let exercise = step.exercise.as_ref().unwrap();
+        match (&exercise.ask, exercise.answer(step).unwrap()) {
+            (Ask::Bits { to, .. }, _) => {
+                tab_to(&page, ".switches button").await?;
+                for bit in (0..8).rev() {
+                    if to[0] >> bit & 1 == 1 {
+                        page.press(" ").await?;
+                    }
+                    page.press(Key::Right + "").await?;
+                }
+                tab_to(&page, ".task [type=submit]").await?;
+            }
+            (_, Answer::Byte(at)) => {
+                tab_to(&page, ".task .byte-strip button").await?;
+                for _ in 0..at {
+                    page.press(Key::Right + "").await?;
+                }
+                tab_to(&page, ".task [type=submit]").await?;
+            }
+            (_, Answer::Blanks(texts)) => {
+                for text in texts {
+                    tab_to(&page, ".task .input").await?;
+                    page.press(text).await?;
+                }
+            }
+            (_, Answer::Text(text)) => {
+                tab_to(&page, ".task .input").await?;
+                page.press(Key::Control + "a").await?;
+                page.press(text).await?;
+            }
+            other => panic!("{other:?} is not done by keyboard here"),
+        }
+        page.press(Key::Enter + "").await?;
+        page.until(".task .said.right", "Right").await?;
+        if number < lesson.steps.len() {
+            page.press(Key::Shift + Key::Tab).await?;
+            let next = "return document.activeElement.matches('.said a')";
+            if page.value(next).await? != json!(true) {
+                tab_to(&page, ".said a").await?;
+            }
+            page.press(Key::Enter + "").await?;
+        }
+    }
     page.close().await
 }
 
@@ -187,7 +291,7 @@ async fn a_trainer_opens_a_lesson_of_his_own() -> Result {
         .execute(format!("{SET} set(document.querySelector('.task .typed input'), '3')"), vec![])
         .await?;
     page.press_button("Check my answer").await?;
-    page.until(".outcome.right", "Right").await?;
+    page.until(".said.right", "Right").await?;
     page.driver.execute("location.hash = '#/learn?place=lessons'", vec![]).await?;
     page.until(".overview", "Our own").await?;
     page.press_button("Remove “Our own”").await?;

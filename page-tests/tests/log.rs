@@ -470,6 +470,23 @@ async fn a_log_in_a_low_window() -> Result {
     page.close().await
 }
 
+/// On a phone the list stands below the story: what leads to it brings it into sight.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_finding_leads_to_the_list_on_a_phone() -> Result {
+    for button in [".findings button", ".units button"] {
+        let page = Page::open(PHONE, false).await?;
+        page.driver.execute("document.querySelectorAll('.first-examples button')[1].click()", vec![]).await?;
+        page.wait_for(".rows .row").await?;
+        page.click(button).await?;
+        page.wait_for(".filters .chip").await?;
+        page.settle().await?;
+        let top = page.value("return document.querySelector('.list').getBoundingClientRect().top").await?;
+        assert!(top.as_f64().is_some_and(|top| (0.0..500.0).contains(&top)), "{button}: {top}");
+        page.close().await?;
+    }
+    Ok(())
+}
+
 /// Measures and prints: a log of 1,000 lines that somebody types in.
 #[tokio::test(flavor = "multi_thread")]
 async fn a_keystroke_in_a_log() -> Result {

@@ -2,7 +2,7 @@
 
 use buslens_trainer::practice::{Kind, QUESTIONS, Round, Seed};
 use buslens_trainer::result::{About, RoundResult};
-use buslens_trainer::{Answer, Expected, Task, Verdict, grade};
+use buslens_trainer::{Answer, Expected, Given, Task, Verdict, grade};
 use page_tests::{DESKTOP, NARROW, PHONE, Page, Result};
 use serde_json::json;
 
@@ -95,9 +95,9 @@ async fn practice_has_questions_of_each_kind() -> Result {
         page.go(&link(round, "")).await?;
         page.until(".question .headline", &task.question).await?;
         if level == 1 {
-            page.press_button("Hint 1 of 3").await?;
+            page.press_button("Give me a hint").await?;
             page.until(".hints li", &task.hints[0]).await?;
-            page.press_button("Hint 2 of 3").await?;
+            page.press_button("Another hint, 2 of 3").await?;
             page.until(".hints li", &task.hints[1]).await?;
         }
         assert_eq!(page.accessibility().await?, [""; 0], "{}", kind.key());
@@ -211,5 +211,128 @@ async fn practice_refuses_damaged_links() -> Result {
     assert!(page.fragment().await?.contains("practice.1.decode.1.K7QM.1"));
     let wide = "return document.documentElement.scrollWidth <= innerWidth";
     assert_eq!(page.value(wide).await?, json!(true), "nothing scrolls sideways");
+    page.close().await
+}
+
+const SET: &str = "# Friday's test\nabout: Two of practice and one of ours.\n\n## Warm up\npractice: 1.decode.1.K7QM.2\n\n\
+    ## Ours\ntelegram: 01 03 00 C8 00 03 84 35\ncame: 01 03 00 C8 00 02 84 35\n";
+
+/// A set is put together, ordered, opened and answered; its link holds all of it, and its code is known.
+#[tokio::test(flavor = "multi_thread")]
+async fn practice_prepares_a_set() -> Result {
+    let page = Page::open_at("#/learn?place=practice.prepare", DESKTOP, false).await?;
+    page.until(".prepare .headline", "Prepare a set").await?;
+    page.choose_in("Kind", "Decode this").await?;
+    page.press_button("Add a question").await?;
+    page.until(".chosen-tasks li:nth-child(1) .soft", "?").await?;
+    page.fill(".adding textarea", "01 03 00 C8 00 03 84 36").await?;
+    page.press_button("Add the task").await?;
+    page.until(".adding .misfit", "wrong already").await?;
+    page.fill(".adding textarea", "00 01 00 00 00 06 11 03 00 C8 00 03").await?;
+    page.choose_in("What is to be found", "In a telegram: A byte is missing").await?;
+    page.press_button("Add the task").await?;
+    page.until(".chosen-tasks li:nth-child(2) .soft", "What happened to it?").await?;
+    assert_eq!(page.accessibility().await?, [""; 0]);
+    page.press_button("Move task 2 up").await?;
+    page.until(".chosen-tasks li:nth-child(1) .soft", "What happened to it?").await?;
+    page.press_button("Remove task 2").await?;
+    page.picture("practice-prepare-desktop-light").await?;
+    assert_eq!(page.count(".chosen-tasks li").await?, 1);
+    page.press_button("The set as a text").await?;
+    page.wait_for(".prepare details textarea").await?;
+    // What is not understood is said with its line, and cannot be opened yet.
+    page.fill(".prepare details textarea", &SET.replace("came:", "com:")).await?;
+    page.until(".mistakes li", "Line 9").await?;
+    assert_eq!(page.value("return document.querySelector('.prepare .main').disabled").await?, json!(true));
+    page.fill(".prepare details textarea", SET).await?;
+    page.until_value("#set-title", "Friday's test").await?;
+    page.press_button("Open the set").await?;
+    let tasks = buslens_trainer::set::read(SET).0.tasks;
+    page.until(".question .headline", &tasks[0].task.question).await?;
+    answer(&page, &tasks[0].task).await?;
+    page.press_button("Next question").await?;
+    page.until(".tag", "Ours").await?;
+    let Expected::Choice { right, .. } = &tasks[1].task.expected else { panic!() };
+    page.click(&format!(".choice:nth-of-type({}) input", right + 1)).await?;
+    page.press_button("Check the answer").await?;
+    page.until(".said.right", "Right.").await?;
+    assert_eq!(page.accessibility().await?, [""; 0]);
+    page.press_button("What came of it").await?;
+    page.until(".done .headline", "1 of 2 right").await?;
+    let code = page.text(".code output").await?;
+    let about = About::Set(buslens_trainer::set::seed(SET));
+    assert_eq!(RoundResult::of(&code), Ok(RoundResult { about, right: 1 }));
+    let link = page.fragment().await?;
+    page.go("#/learn?place=practice.results").await?;
+    page.fill(".results textarea", &format!("Anna {code}")).await?;
+    page.until(".results tbody tr", "Friday's test").await?;
+    page.until(".results tbody tr", "1 of 2").await?;
+    page.close().await?;
+    // Where nobody opened it, the link alone does.
+    let link = link.trim_start_matches('#').replace(".done", ".paper");
+    let page = Page::open_at(&format!("#{link}"), PHONE, true).await?;
+    page.until(".handout .called", "Warm up").await?;
+    page.until(".key .asked", &tasks[0].task.question).await?;
+    page.go("#/learn?place=practice").await?;
+    page.until(".sets .level", "Friday's test").await?;
+    page.picture("practice-sets-phone-dark").await?;
+    page.close().await
+}
+
+/// A file with mistakes is refused with their lines; one without is opened. A log that is dropped may become a task.
+#[tokio::test(flavor = "multi_thread")]
+async fn practice_opens_a_set() -> Result {
+    let folder = std::env::temp_dir().join(format!("buslens-sets-{}", std::process::id()));
+    std::fs::create_dir_all(&folder)?;
+    let (bad, good) = (folder.join("bad.txt"), folder.join("good.txt"));
+    std::fs::write(&bad, SET.replace("practice: 1.decode.1", "practice: 1.decode.8"))?;
+    std::fs::write(&good, SET)?;
+    let page = Page::open_at("#/learn?place=practice", NARROW, false).await?;
+    page.wait_for(".practice .open-file input").await?;
+    let open = async |path: &std::path::Path| {
+        page.one(".practice .open-file input").await?.send_keys(path.to_string_lossy()).await
+    };
+    open(&bad).await?;
+    page.until(".mistakes", "bad.txt").await?;
+    page.until(".mistakes li", "Line 5").await?;
+    assert_eq!(page.accessibility().await?, [""; 0]);
+    open(&good).await?;
+    page.until(".question .headline", &buslens_trainer::set::read(SET).0.tasks[0].task.question).await?;
+    page.settle().await?;
+    assert!(page.fragment().await?.contains("practice.set."));
+    // A link of before there were sets.
+    page.go("#/learn?place=practice.own.1.bit-flipped.K7QM.any.010300C800038435").await?;
+    page.until(".question .headline", "What happened to it?").await?;
+    page.until(".round", "A task of somebody's own").await?;
+    page.close().await?;
+    std::fs::remove_dir_all(folder)?;
+    Ok(())
+}
+
+/// What is in Read becomes a task: a telegram, and of a log what is around the telegram that is shown.
+#[tokio::test(flavor = "multi_thread")]
+async fn practice_takes_what_is_in_read() -> Result {
+    let page = Page::open_at("#/read?text=01+03+00+C8+00+03+84+35", DESKTOP, false).await?;
+    page.wait_for(".byte-strip").await?;
+    page.click(".input-tools a[href='#/sheet']").await?;
+    page.press_button("Save as").await?;
+    page.click_text("[role=menuitem]", "A task for learners").await?;
+    page.until_value(".adding textarea", "01 03 00 C8 00 03 84 35").await?;
+    page.press_button("Add the task").await?;
+    page.until(".chosen-tasks .soft", "This was to be: ask unit 1").await?;
+    page.view("read").await?;
+    page.wait_for(".byte-strip").await?;
+    let Some(Given::Text(log)) = round(Kind::Silence, 3).questions()[0].given.first().cloned() else {
+        panic!()
+    };
+    page.paste(&log).await?;
+    page.wait_for(".file-bar").await?;
+    page.press_button("Export").await?;
+    page.click_text("[role=menuitem]", "A task for learners").await?;
+    page.until_value(".adding textarea", "TX").await?;
+    page.choose_in("What is to be found", "A log as it is: who does not answer?").await?;
+    page.press_button("Add the task").await?;
+    page.until(".chosen-tasks li:nth-child(2) .soft", "never answers").await?;
+    page.picture("practice-from-read-desktop-light").await?;
     page.close().await
 }

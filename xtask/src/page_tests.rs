@@ -68,8 +68,9 @@ pub fn run(words: &[&str]) -> Result {
         tests
             // What tests measure is printed, too.
             .args(["test", "--package", "page-tests", "--no-fail-fast"])
-            .args(&names)
             .args(["--", "--show-output"])
+            // Cargo itself takes one name only.
+            .args(&names)
             .args(chosen)
             .env("BUSLENS_URL", &page)
             .env("BUSLENS_DIST", &dist)

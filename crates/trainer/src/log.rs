@@ -121,14 +121,35 @@ impl Log {
             count if count > MOST => Err(format!(
                 "A task shows at most {MOST} telegrams, and these are {count}: choose some lines of it."
             )),
-            _ => Ok(Self::written(&lines(&report), options)),
+            _ => Ok(Self::written(&lines(&report), of_protocol(&report, options))),
         }
+    }
+
+    /// The telegrams around telegram `index` of a long text, as many as a task can show, as lines. A few telegrams
+    /// are only their bytes.
+    pub fn excerpt(text: &str, options: Options, index: usize) -> String {
+        /// So many before it.
+        const BEFORE: usize = MOST / 2;
+        let report = decode_pasted(text, options.clone()).unwrap_or_default();
+        let lines = lines(&report);
+        if lines.len() <= 2 {
+            return lines.iter().map(|line| hex(&line.2)).collect::<Vec<_>>().join("\n");
+        }
+        let from = index.saturating_sub(BEFORE).min(lines.len().saturating_sub(MOST));
+        let shown = &lines[from..lines.len().min(from + MOST)];
+        Self::written(shown, of_protocol(&report, options)).text
     }
 
     /// The log that these lines are.
     fn written(lines: &[Line], options: Options) -> Self {
+        let fraction = |time: &str| time.rsplit_once('.').map_or(0, |(_, digits)| digits.len());
+        let digits =
+            lines.iter().filter_map(|line| line.0.as_deref().map(fraction)).max().unwrap_or_default();
         let line = |(time, client, bytes): &Line| {
-            let time = time.as_ref().map_or(String::new(), |time| format!("{time} "));
+            let time = time.as_deref().map_or(String::new(), |time| {
+                let point = if time.contains('.') || digits == 0 { "" } else { "." };
+                format!("{time}{point}{:0<missing$} ", "", missing = digits - fraction(time))
+            });
             format!("{time}{} {}", if *client { "TX" } else { "RX" }, hex(bytes))
         };
         let text = lines.iter().map(line).collect::<Vec<_>>().join("\n");
@@ -154,6 +175,11 @@ impl Log {
             seen.push(Trouble::Nothing);
         }
         in_order(seen, |trouble| GRAVEST.iter().position(|other| other == trouble))
+    }
+
+    /// Whether the library sees nothing wrong in it.
+    pub fn is_healthy(&self) -> bool {
+        self.troubles() == [Trouble::Nothing]
     }
 
     fn states(&self) -> Vec<State> {
@@ -378,8 +404,16 @@ impl Log {
                 lines.insert(request, lines[request].clone());
             }
         }
+        // An echo doubles them.
+        lines.truncate(MOST);
         Some(lines)
     }
+}
+
+/// With the protocol of its telegrams, so that they are read in the same way whatever is done to them.
+fn of_protocol(report: &Report, options: Options) -> Options {
+    let first = report.telegrams.first().map(|telegram| telegram.choice.protocol);
+    Options { protocol: options.protocol.or(first), ..options }
 }
 
 /// The telegrams of a report as lines.

@@ -4,13 +4,14 @@
 use std::ops::Range;
 
 use buslens::field::{hex, in_order};
-use buslens::tool::Report;
 use buslens::tool::steps::bytes;
+use buslens::tool::{Options, Profile, Report, decode};
 
-use crate::fault;
+use crate::fault::{self, Fault};
 use crate::lesson::{self, Ask, Lesson, Mistake, Step};
-use crate::log::{Find, Log};
+use crate::log::{Find, Log, Spoil};
 use crate::practice::{NoRound, QUESTIONS, Round, Seed, all_fields};
+use crate::random::Random;
 use crate::task::{Expected, Given, Task, Telegram};
 
 /// A set of tasks.
@@ -26,6 +27,8 @@ pub struct Set {
 #[derive(Clone, Debug)]
 pub struct Titled {
     pub title: String,
+    /// Which of its [`places`] it is of: one can hold all questions of a round.
+    pub place: usize,
     pub task: Task,
 }
 
@@ -89,7 +92,8 @@ pub fn read(text: &str) -> (Set, Vec<Mistake>) {
         mistakes.extend(wrong.into_iter().map(|it| Mistake { line: it.line.saturating_sub(1), ..it }));
         match of_step(step, &lines) {
             Ok(all) => {
-                tasks.extend(all.into_iter().map(|task| Titled { title: step.title.clone(), task }));
+                let title = &step.title;
+                tasks.extend(all.into_iter().map(|task| Titled { title: title.clone(), place: at, task }));
             }
             // A line that is not understood is why nothing is asked.
             Err((None, _)) if mistakes.iter().any(|mistake| (line..end).contains(&mistake.line)) => {}
@@ -294,6 +298,11 @@ pub fn of_round(round: &Round, index: usize) -> String {
     format!("practice: {}.{}", round.place(), index.min(QUESTIONS - 1) + 1)
 }
 
+/// The line of all tasks of a round.
+pub fn of_rounds(round: &Round) -> String {
+    format!("practice: {}", round.place())
+}
+
 /// The lines of a telegram and what came instead of it.
 pub fn of_telegram(telegram: &Telegram, came: &[u8]) -> String {
     let mut lines = format!("protocol: {}\n", telegram.protocol.key);
@@ -318,4 +327,79 @@ pub fn of_log(log: &Log, find: Find) -> String {
     }
     log.text.lines().for_each(|line| lines += &format!("| {line}\n"));
     lines + &format!("find: {}", find.key())
+}
+
+/// What is to be found in what somebody pastes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hide {
+    /// Whatever can be in it, by chance; what is wrong already stays as it is.
+    Any,
+    /// A fault in a telegram.
+    Fault(Fault),
+    /// A log as it is.
+    Log(Find),
+    /// A log with something wrong.
+    Spoil(Spoil),
+}
+
+impl Hide {
+    /// The title of the task, and its lines.
+    fn titled(self, lines: String) -> (&'static str, String) {
+        let title = match self {
+            Self::Fault(_) => "What happened to it?",
+            Self::Log(Find::Unit) => "Who does not answer?",
+            _ => "What is wrong here?",
+        };
+        (title, lines)
+    }
+}
+
+/// A task of what somebody pastes: its title and its lines. The message says why there is none.
+pub fn made(
+    text: &str,
+    device: Option<&'static Profile>,
+    hide: Hide,
+    random: &mut Random,
+) -> Result<(&'static str, String), String> {
+    const CANNOT: &str = "This cannot be in it so that it can be found: choose something else.";
+    let telegrams = decode(text, Options { device, ..Options::default() }).telegrams.len();
+    let log = || Log::of(text, Options { device, ..Options::default() });
+    let found = |find: Find| -> Result<_, String> {
+        let log = log()?;
+        log.task(find)?;
+        Ok(Hide::Log(find).titled(of_log(&log, find)))
+    };
+    match hide {
+        Hide::Any if telegrams > 2 => {
+            if !log()?.is_healthy() {
+                return found(Find::Fault);
+            }
+            let mut all = Spoil::ALL;
+            random.shuffle(&mut all);
+            let made = all.into_iter().find_map(|spoil| made(text, device, Hide::Spoil(spoil), random).ok());
+            made.ok_or_else(|| CANNOT.to_owned())
+        }
+        Hide::Any => {
+            let telegram = fault::telegram(text, None, device)?;
+            let mut all = Fault::ALL;
+            random.shuffle(&mut all);
+            let came = all.into_iter().find_map(|fault| fault.inject(&telegram, random));
+            let (came, _) = came.ok_or(CANNOT)?;
+            Ok(Hide::Fault(Fault::WrongByte).titled(of_telegram(&telegram, &came)))
+        }
+        Hide::Fault(fault) => {
+            let telegram = fault::telegram(text, None, device)?;
+            let (came, _) = fault.inject(&telegram, random).ok_or(CANNOT)?;
+            Ok(hide.titled(of_telegram(&telegram, &came)))
+        }
+        Hide::Log(find) => found(find),
+        Hide::Spoil(spoil) => {
+            let log = log()?;
+            if !log.is_healthy() {
+                return Err("Something is wrong in this log already: ask for that.".to_owned());
+            }
+            let (log, find) = log.spoiled(spoil, random).ok_or(CANNOT)?;
+            Ok(Hide::Log(find).titled(of_log(&log, find)))
+        }
+    }
 }

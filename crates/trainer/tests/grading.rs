@@ -2,7 +2,7 @@
 
 use buslens::field::Direction;
 use buslens::tool::{Profile, Protocol};
-use buslens_trainer::{Answer, Expected, Task, Telegram, Verdict, grade};
+use buslens_trainer::{Answer, Blank, Expected, Task, Telegram, Verdict, grade};
 
 fn telegram(hex: &str, direction: Direction, protocol: &str, device: &str) -> Telegram {
     let bytes = buslens::tool::steps::bytes(hex);
@@ -119,4 +119,70 @@ fn a_response_and_a_job_are_compared_by_fields_too() {
     let job = telegram("52 00 23 00 00 0B 00 00", Direction::Request, "profibus-parameter-channel", "");
     assert!(verdict(&job, "52 00 23 00 00 0B 00 00").is_right());
     says(&job, "52 00 23 01 00 0B 00 00", "Index", "one too high");
+}
+
+#[test]
+fn what_is_not_there_yet_is_missing() {
+    let wanted = telegram("01 03 00 C8 00 03 84 35", Direction::Request, "modbus-rtu", "");
+    says(&wanted, "01", "Function code", "is missing: it has 1 byte");
+    says(&wanted, "02", "Unit address", "is 2");
+    says(&wanted, "01 03 00 C8 00", "Quantity", "ends too early, with 1 byte missing");
+    // The checksum that is added is no function code.
+    let both = verdict(&wanted, "02");
+    assert_eq!(both.remarks()[1].text.to_string(), "the function code is missing: it has 1 byte");
+    let frame = telegram("68 05 05 68 81 82 6D 3C 3E EA 16", Direction::Request, "profibus-fdl", "");
+    says(&frame, "68 05 05 68 81 82 6D 3C 3E", "FCS", "missing");
+}
+
+#[test]
+fn numbers_as_people_count_are_told_apart() {
+    let wanted = telegram("11 03 01 2C 00 0C 87 6A", Direction::Request, "modbus-rtu", "");
+    for text in ["17 3 300 12", "17, 3, 1, 44, 0, 12", "17 3 1 44 0 12 135 106"] {
+        says(&wanted, text, "", "the right numbers as people count");
+    }
+    says(&wanted, "17 03 01 2C 00 0C", "Unit address", "decimal digits where hex ones belong");
+}
+
+#[test]
+fn only_what_counts_is_one_too_high() {
+    let tcp = telegram("00 01 00 00 00 06 01 03 00 C8 00 03", Direction::Request, "modbus-tcp", "");
+    says(&tcp, "00 01 00 00 00 07 01 03 00 C8 00 03", "Length", "it says how many bytes follow");
+    says(
+        &tcp,
+        "00 01 00 01 00 06 01 03 00 C8 00 03",
+        "Protocol identifier",
+        "is 1, 0 (Modbus) was asked for",
+    );
+    let job = telegram("41 00 22 00 00 00 00 00", Direction::Request, "profibus-parameter-channel", "");
+    says(&job, "41 00 22 01 00 00 00 00", "Index", "own number plus 2000h");
+    says(&job, "41 01 22 00 00 00 00 00", "Subindex", "was asked for");
+    says(&job, "41 00 22 00 01 00 00 00", "Not used", "what is not used is 01 00 00 00");
+}
+
+#[test]
+fn a_blank_is_told_what_it_would_mean() {
+    let telegram = telegram("02 03 00 0A 00 02 E4 3A", Direction::Request, "modbus-rtu", "");
+    let blanks = ["Function code", "CRC"].map(|label| {
+        let field =
+            telegram.fields(false).into_iter().find(|field| field.label().to_string() == label).unwrap();
+        Blank { label: label.to_owned(), span: field.span }
+    });
+    let task = Task {
+        question: String::new(),
+        given: Vec::new(),
+        expected: Expected::Blanks { telegram, blanks: blanks.to_vec() },
+        hints: Vec::new(),
+        working: Vec::new(),
+    };
+    for (function, crc, said) in [
+        ("4", "E4 3A", "with 04, the function code is 4 (read input registers)"),
+        ("3", "58426", "the CRC is right as a decimal number"),
+        ("3", "3A E4", "its low byte goes first"),
+        ("3", "E43B", "the CRC is not E4 3B"),
+        ("3", "zz", "expected 2 bytes, in hex"),
+    ] {
+        let verdict = grade(&task, &Answer::Blanks(vec![function.to_owned(), crc.to_owned()]));
+        let text = verdict.remarks()[0].text.to_string();
+        assert!(text.contains(said), "{function} {crc}: {text}");
+    }
 }

@@ -1,7 +1,7 @@
 //! Every lesson that comes with Buslens: nothing in its text is a mistake, everything it says holds, each task
 //! takes the right answer, and says of a wrong one what is off.
 
-use buslens_trainer::lesson::{Ask, Exercise, LESSONS, Lesson, Step, read};
+use buslens_trainer::lesson::{Ask, Checksum, Exercise, LESSONS, Lesson, Place, Step, read};
 use buslens_trainer::{Answer, Verdict, grade};
 
 fn lessons() -> Vec<Lesson> {
@@ -58,15 +58,45 @@ fn every_task_has_three_hints_and_a_last_word() {
     });
 }
 
-/// First it is shown, then there are blanks, then one's own, then one to repair.
+/// Whether what is said of one of the step's telegrams lights every byte of it, part by part.
+fn lights_every_byte(step: &Step) -> bool {
+    let report = step.report();
+    step.telegrams.iter().enumerate().any(|(index, telegram)| {
+        let (Some(detail), length) = (report.detail(index), report.telegrams[index].line.bytes.len()) else {
+            return false;
+        };
+        let parts = telegram.remarks.iter().filter(|remark| remark.place != Place::Whole);
+        let lit: Vec<_> = parts.filter_map(|remark| remark.place.span(&detail, length)).collect();
+        lit.len() > 1 && (0..length).all(|at| lit.iter().any(|span| span.contains(at)))
+    })
+}
+
+/// First a worked example with every byte lit, then the same with blanks, then one's own, and at last a broken
+/// one to repair.
 #[test]
 fn every_lesson_leads_from_the_example_to_the_repair() {
+    let mut missing = String::new();
     for lesson in lessons() {
-        let asks: Vec<&Ask> = lesson.steps.iter().map(|step| &step.exercise.as_ref().unwrap().ask).collect();
-        let last = asks.last().unwrap();
-        let repairs = matches!(last, Ask::Repair { .. } | Ask::Choose { .. });
-        assert!(repairs, "{}: the last one is a broken one", lesson.key);
+        let at = |is: &dyn Fn(&Step, &Ask) -> bool| {
+            lesson.steps.iter().position(|step| is(step, &step.exercise.as_ref().unwrap().ask))
+        };
+        let arc = [
+            ("example", at(&|step, _| lights_every_byte(step))),
+            ("blanks", at(&|_, ask| matches!(ask, Ask::Blank { .. }))),
+            ("own", at(&|_, ask| matches!(ask, Ask::Build { .. }))),
+            ("repair", at(&|_, ask| matches!(ask, Ask::Repair { .. }))),
+        ];
+        for (name, _) in arc.iter().filter(|(_, at)| at.is_none()) {
+            missing += &format!("{}: there is no {name}\n", lesson.key);
+        }
+        if !arc.iter().map(|(_, at)| at).is_sorted() {
+            missing += &format!("{}: {arc:?}\n", lesson.key);
+        }
+        if !matches!(lesson.steps.last().unwrap().exercise.as_ref().unwrap().ask, Ask::Repair { .. }) {
+            missing += &format!("{}: the last one is no repair\n", lesson.key);
+        }
     }
+    assert!(missing.is_empty(), "{missing}");
 }
 
 #[test]
@@ -149,6 +179,22 @@ fn what_was_damaged_is_not_right_yet() {
     });
 }
 
+/// Where the checksum is asked for, a telegram without it is not right yet.
+#[test]
+fn a_checksum_that_is_asked_for_is_missed() {
+    let mut asked = 0;
+    exercises(|step, exercise, place| {
+        let Some(telegram) = exercise.telegram(step) else { return };
+        let Some(check) = telegram.check().filter(|_| exercise.checksum() == Checksum::Asked) else { return };
+        asked += 1;
+        let rest = buslens::field::hex(&telegram.bytes[..check.covered.to]);
+        let verdict = exercise.grade(step, &Answer::Text(rest));
+        let said = verdict.remarks().first().map(|remark| remark.text.sentence());
+        assert_eq!(said.as_deref(), Some("Its checksum is missing, and here it is your part"), "{place}");
+    });
+    assert!(asked > 2, "{asked}");
+}
+
 /// What is no pointing and no switching is a task like those of practice.
 #[test]
 fn tasks_are_graded_as_tasks() {
@@ -164,8 +210,8 @@ fn tasks_are_graded_as_tasks() {
 fn no_text_is_too_strange() {
     let whole = LESSONS[1];
     for at in (0..whole.len()).filter(|at| whole.is_char_boundary(*at)).step_by(37) {
-        let text =
-            format!("{}{}", &whole[..at], &whole[(at + 11).min(whole.len())..].trim_start_matches('\u{80}'));
+        let behind = (at + 11..whole.len()).find(|at| whole.is_char_boundary(*at)).unwrap_or(whole.len());
+        let text = format!("{}{}", &whole[..at], &whole[behind..]);
         let (lesson, mistakes) = read(&text);
         let lines = text.lines().count().max(1);
         assert!(

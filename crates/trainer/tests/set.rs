@@ -7,6 +7,7 @@ use buslens_trainer::fault::{self, Fault};
 use buslens_trainer::log::{Find, Log, Spoil};
 use buslens_trainer::practice::{Kind, LEVELS, Round, Seed};
 use buslens_trainer::random::Random;
+use buslens_trainer::set::Hide;
 use buslens_trainer::{Answer, Expected, Given, Task, Telegram, grade, set};
 
 /// A frame of PROFIBUS (SD2) around destination to data.
@@ -284,4 +285,51 @@ fn mistakes_have_their_line() {
     let many =
         (0..7).fold(set::empty("Too many"), |text, _| set::with(&text, "Five", "practice: 1.build.2.K7QM"));
     assert!(set::read(&many).1[0].said.contains("at most 31"));
+}
+
+/// What is pasted becomes a task of what it is.
+#[test]
+fn what_is_pasted_becomes_a_task() {
+    let made = |text: &str, hide| set::made(text, None, hide, &mut Random::of(&[5]));
+    let whole = |(title, lines): (&str, String)| {
+        let text = set::with(&set::empty("One"), title, &lines);
+        let (set, mistakes) = set::read(&text);
+        assert_eq!(mistakes, [], "{text}");
+        is_solved(&set.tasks[0].task);
+        text
+    };
+    for (_, telegram) in telegrams() {
+        let request = telegram.request.iter().map(|bytes| buslens::field::hex(bytes) + "\n");
+        let text = request.collect::<String>() + &telegram.hex();
+        // Bytes alone of ASCII or of the parameter channel may be another protocol.
+        if ["modbus-rtu", "modbus-tcp", "profibus-fdl"].contains(&telegram.protocol.key) {
+            let text = whole(made(&text, Hide::Any).unwrap());
+            assert!(text.contains(&format!("protocol: {}", telegram.protocol.key)), "{text}");
+        }
+    }
+    let log = healthy();
+    assert!(whole(made(&log, Hide::Any).unwrap()).contains("find: "));
+    assert!(whole(made(&log, Hide::Log(Find::Fault)).unwrap()).contains("find: fault"));
+    assert!(whole(made(&log, Hide::Spoil(Spoil::Silence)).unwrap()).contains("find: unit"));
+    assert!(made(&log, Hide::Log(Find::Unit)).unwrap_err().contains("every unit answers"));
+    assert!(made("hello", Hide::Any).unwrap_err().contains("Paste a telegram"));
+    let long = (0..30).map(|_| log.clone()).collect::<Vec<_>>().join("\n");
+    assert!(made(&long, Hide::Any).unwrap_err().contains("at most 40"));
+    let part = Log::excerpt(&long, Options::default(), 100);
+    assert_eq!(part.lines().count(), 40);
+    whole(made(&part, Hide::Any).unwrap());
+}
+
+/// What docs/practice.md shows is a set.
+#[test]
+fn the_example_of_the_docs_is_a_set() {
+    let docs = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/practice.md");
+    let docs = std::fs::read_to_string(docs).unwrap();
+    let from = docs.find("    # Friday's test").unwrap();
+    let lines = docs[from..].lines().take_while(|line| line.is_empty() || line.starts_with("    "));
+    let text: String = lines.map(|line| format!("{}\n", line.trim_start_matches("    "))).collect();
+    let (set, mistakes) = set::read(&text);
+    assert_eq!(mistakes, []);
+    assert_eq!(set.tasks.len(), 4);
+    set.tasks.iter().for_each(|task| is_solved(&task.task));
 }

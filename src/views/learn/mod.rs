@@ -1,10 +1,13 @@
 //! Learn: lessons, tasks without end, and everything to look up, on the components of the other views.
 
+mod answer;
+mod attempt;
 mod gallery;
 mod lessons;
 mod practice;
 mod reference;
 mod state;
+mod words;
 
 use leptos::prelude::*;
 

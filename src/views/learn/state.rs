@@ -97,14 +97,23 @@ impl LearnState {
             (_, "") => part.key().to_owned(),
             _ => format!("{}.{place}", part.key()),
         };
-        Link { place, ..Link::default() }
+        // A set travels in its links.
+        let text = match part {
+            Part::Practice => self.practice.text_of(&self.places[part as usize].get_untracked()),
+            _ => String::new(),
+        };
+        Link { place, text, ..Link::default() }
     }
 
     /// Shows what a link says.
     pub fn follow(&self, link: Link) {
         let (key, place) = link.place.split_once('.').unwrap_or((&link.place, ""));
         let part = Part::ALL.into_iter().find(|part| part.key() == key).unwrap_or(Part::Lessons);
+        let mut place = place.to_owned();
+        if part == Part::Practice && !link.text.is_empty() {
+            place = self.practice.follow(&place, &link.text);
+        }
         self.part.set(part);
-        self.places[part as usize].set(place.to_owned());
+        self.places[part as usize].set(place);
     }
 }

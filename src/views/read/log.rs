@@ -78,6 +78,8 @@ pub struct LogState {
     pub lanes: RwSignal<Lanes>,
     /// How many telegrams the list has.
     pub total: RwSignal<usize>,
+    /// The list is what somebody wants to see now.
+    pub to_list: Trigger,
     /// Counts the lists: each begins at its top.
     pub lists: RwSignal<usize>,
     /// The rows that are known, and the place of the first one.
@@ -127,6 +129,7 @@ impl LogState {
             seen: RwSignal::default(),
             lanes: RwSignal::default(),
             total: RwSignal::default(),
+            to_list: Trigger::new(),
             lists: RwSignal::default(),
             rows: RwSignal::default(),
             current: RwSignal::default(),
@@ -262,6 +265,7 @@ impl LogState {
             self.list();
         }
         self.step_in_finding(None);
+        self.to_list.notify();
     }
 
     /// Lets go of the finding.

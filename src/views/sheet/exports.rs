@@ -9,7 +9,7 @@ use web_sys::js_sys::{Array, Uint8Array};
 use crate::browser::file;
 use crate::components::copy_button::copy;
 use crate::components::icon::Glyph;
-use crate::components::menu::{Menu, MenuItem};
+use crate::components::menu::{Menu, MenuItem, MenuLink};
 use crate::components::toast::Toasts;
 use crate::views::outgoing::PassOn;
 use crate::views::read::ReadState;
@@ -110,6 +110,7 @@ pub fn Exports(report: Signal<Arc<Report>>, is_log: Memo<bool>) -> impl IntoView
                 }
             }}
             <MenuItem on_choose=Callback::new(move |()| pass_on.set(true))>"A log to pass on"</MenuItem>
+            <MenuLink href="#/learn?place=practice.read">"A task for learners"</MenuLink>
         </Menu>
         <Show when=move || !is_log.get()>
             <Menu label="Copy as" glyph=Glyph::Copy>

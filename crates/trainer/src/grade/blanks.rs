@@ -5,7 +5,8 @@ use buslens::message;
 use buslens::tool::steps;
 
 use super::slip::Slip;
-use super::{Remark, Verdict, small};
+use super::telegram::value;
+use super::{Remark, Verdict, the};
 use crate::notation::{self, Notation};
 use crate::task::{Blank, Telegram};
 
@@ -20,6 +21,7 @@ pub fn grade(telegram: &Telegram, blanks: &[Blank], texts: &[String]) -> Verdict
         match bytes(typed(index), wanted.len()) {
             Ok(given) if given == wanted => {}
             Ok(given) => remarks.push(differs(telegram, blank, wanted, &given, typed(index))),
+            Err(_) if is_decimal(typed(index), wanted) => remarks.push(in_decimal(blank)),
             Err(text) => remarks.push(Remark::new(&blank.label, text).at(blank.span)),
         }
     }
@@ -38,32 +40,57 @@ fn bytes(text: &str, width: usize) -> Result<Vec<u8>, Message> {
     let written = notation::read(text, width.min(8), buslens::field::Format::Decimal, Notation::Hex);
     match written {
         Ok(written) if width <= 8 => Ok(Order::Big.bytes(written.raw, width)),
-        _ => Err(message!("here belong {n}, in hex", n = Message::bytes(width))),
+        _ => Err(message!("expected {n}, in hex", n = Message::bytes(width))),
     }
 }
 
+/// Whether the right number was typed as people count.
+fn is_decimal(typed: &str, wanted: &[u8]) -> bool {
+    wanted.len() <= 8 && typed.parse().is_ok_and(|typed: u64| typed > 9 && typed == Order::Big.number(wanted))
+}
+
+fn in_decimal(blank: &Blank) -> Remark {
+    let text =
+        message!("{field} is right as a decimal number; here stand bytes, in hex", field = the(&blank.label));
+    Remark::new(&blank.label, text).at(blank.span)
+}
+
 fn differs(telegram: &Telegram, blank: &Blank, wanted: &[u8], given: &[u8], typed: &str) -> Remark {
+    if is_decimal(typed, wanted) {
+        return in_decimal(blank);
+    }
     let field = telegram.fields(false).into_iter().find(|field| field.span == blank.span);
     let (role, key) = field.map_or((Role::Data, ""), |field| (field.spec.role, field.spec.key));
-    let label = small(&blank.label);
+    let label = the(&blank.label);
     let number = |bytes: &[u8]| Order::Big.number(bytes);
     let whole = wanted.len() <= 8;
-    let decimal = typed.parse::<u64>().ok().filter(|typed| whole && *typed == number(wanted) && *typed > 9);
     let slip = if whole { Slip::find(number(wanted), number(given), wanted.len(), role, key) } else { None };
-    let text = match (decimal, slip) {
-        (Some(_), _) => {
-            message!("the {label} is right as a decimal number; here stand bytes, in hex", label = label)
-        }
-        (None, _) if role == Role::Check && wanted.iter().rev().eq(given) => {
+    let text = match slip {
+        _ if role == Role::Check && wanted.iter().rev().eq(given) => {
             message!("the two bytes of the CRC are in the other order: its low byte goes first")
         }
-        (None, Some(slip)) => message!(
-            "the {label} {what}: {why}",
-            label = label,
+        Some(slip) => message!(
+            "{field} {what}: {why}",
+            field = label,
             what = buslens::field::Argument::Term(slip.what()),
             why = buslens::field::Argument::Term(slip.why())
         ),
-        (None, None) => message!("the {label} is not {given}", label = label, given = hex(given)),
+        None => match would_be(telegram, blank, given).filter(|_| role != Role::Check) {
+            Some(value) => {
+                message!("with {given}, {field} is {value}", given = hex(given), field = label, value = value)
+            }
+            None => message!("{field} is not {given}", field = label, given = hex(given)),
+        },
     };
     Remark::new(&blank.label, text).at(blank.span)
+}
+
+/// What the field would say with these bytes.
+fn would_be(telegram: &Telegram, blank: &Blank, given: &[u8]) -> Option<String> {
+    let mut bytes = telegram.bytes.clone();
+    bytes.get_mut(blank.span.from..blank.span.to)?.copy_from_slice(given);
+    let changed = telegram.with(bytes);
+    let mut fields = changed.fields(true).into_iter().chain(changed.fields(false));
+    let field = fields.find(|field| field.span == blank.span && field.label().to_string() == blank.label)?;
+    Some(field).filter(|field| !field.value_text().is_empty()).map(|field| value(&field))
 }

@@ -185,6 +185,15 @@ fn byte(telegram: &Telegram, right: &Telegram, at: Span, chosen: usize) -> Verdi
     Verdict::wrong(Remark::new(&label, text).at(span))
 }
 
+/// A field within a sentence, with "the" where it wants one: the quantity, register 201.
+fn the(label: &str) -> String {
+    match label {
+        "Not used" => "what is not used".to_owned(),
+        _ if label.ends_with(|last: char| last.is_ascii_digit()) => small(label),
+        _ => format!("the {}", small(label)),
+    }
+}
+
 /// A label within a sentence; abbreviations stay as they are.
 fn small(label: &str) -> String {
     let mut rest = label.chars();

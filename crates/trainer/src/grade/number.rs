@@ -144,7 +144,7 @@ fn float(wanted: &Number, written: &Written) -> Verdict {
 
 /// A whole number, and which slip it looks like.
 fn wrong(wanted: &Number, given: Option<u64>) -> Verdict {
-    let label = small(&wanted.label);
+    let label = if wanted.label.is_empty() { "number".to_owned() } else { small(&wanted.label) };
     let key = wanted.spec.map_or("", |spec| spec.key);
     let slip = given.and_then(|given| Slip::find(wanted.raw, given, wanted.width, wanted.role, key));
     let scaled = |given: u64| {
@@ -164,6 +164,16 @@ fn wrong(wanted: &Number, given: Option<u64>) -> Verdict {
         }
         (None, Some(given)) if wanted.raw != 0 && given == wanted.raw.wrapping_neg() & mask(wanted.width) => {
             message!("the sign is the other one")
+        }
+        (None, Some(given)) if wanted.spec.is_none() && wanted.role == Role::Data => {
+            let shown = match wanted.notation {
+                Notation::Hex => buslens::field::hex_value(given, wanted.width),
+                _ => given.to_string(),
+            };
+            match given < wanted.raw {
+                true => message!("{given} is too low", given = shown),
+                false => message!("{given} is too high", given = shown),
+            }
         }
         _ => match wanted.role {
             Role::Address => {

@@ -1,14 +1,12 @@
 //! A telegram that was to be made: compared byte by byte, explained field by field.
 
-use std::collections::HashMap;
-
 use buslens::field::{Argument, Check, Field, Message, Order, Role, Span, Value, hex};
 use buslens::message;
 use buslens::tool::steps::{self, CHECKS};
 use buslens::tool::{Options, Verdict as Checked, decode};
 
 use super::slip::Slip;
-use super::{Remark, Verdict, small};
+use super::{Remark, Verdict, small, the};
 use crate::task::Telegram;
 
 pub fn grade(wanted: &Telegram, text: &str) -> Verdict {
@@ -19,7 +17,7 @@ pub fn grade(wanted: &Telegram, text: &str) -> Verdict {
     let text = &text.split_whitespace().collect::<Vec<_>>().join(" ");
     let bytes = steps::bytes(text);
     if let Some(message) = unread(text, &bytes) {
-        return Verdict::Unread(message);
+        return in_decimal(wanted, text).map_or(Verdict::Unread(message), Verdict::wrong);
     }
     let given = completed(wanted, &bytes);
     let typed_check = given == bytes;
@@ -29,7 +27,10 @@ pub fn grade(wanted: &Telegram, text: &str) -> Verdict {
             note.map(|check| message!("with its checksum it ends in {check}", check = check)),
         );
     }
-    Verdict::Wrong(compare(wanted, &given, typed_check))
+    if let Some(remark) = in_decimal(wanted, text).or_else(|| cut_off(wanted, &bytes)) {
+        return Verdict::wrong(remark);
+    }
+    Verdict::Wrong(compare(wanted, &given, bytes.len(), typed_check))
 }
 
 /// Why what was typed is no telegram.
@@ -67,13 +68,40 @@ fn is_same(wanted: &Telegram, given: &[u8]) -> bool {
     given.len() == wanted.bytes.len() && given[free..] == wanted.bytes[free..]
 }
 
+/// The right bytes or values, as people count: 17 3 107 for 11 03 00 6B.
+fn in_decimal(wanted: &Telegram, text: &str) -> Option<Remark> {
+    let apart = text.split([' ', ',', ';']).filter(|word| !word.is_empty());
+    let typed: Vec<u64> = apart.map(|word| word.parse().ok()).collect::<Option<_>>()?;
+    let body = wanted.check().map_or(wanted.bytes.len(), |check| check.covered.to);
+    let bytes = wanted.bytes.iter().map(|byte| u64::from(*byte));
+    let values = wanted.fields(false).into_iter().filter(|field| field.spec.role != Role::Check);
+    let same = bytes.clone().eq(typed.iter().copied())
+        || bytes.take(body).eq(typed.iter().copied())
+        || values.map(|field| field.value.raw()).eq(typed.iter().copied().map(Some));
+    same.then(|| {
+        Remark::new("", message!("these are the right numbers as people count; a telegram is written in hex"))
+    })
+}
+
+/// What comes next, where all that was typed is right.
+fn cut_off(wanted: &Telegram, typed: &[u8]) -> Option<Remark> {
+    let field = wanted.field_at(typed.len()).filter(|_| wanted.bytes.starts_with(typed))?;
+    if field.span.from == typed.len() {
+        return Some(missing(&field));
+    }
+    let label = field.label().to_string();
+    let left = Message::bytes(field.span.to - typed.len());
+    let text = message!("{field} ends too early, with {bytes} missing", field = the(&label), bytes = left);
+    Some(Remark::new(&label, text))
+}
+
 /// The checksum of a telegram as its bytes.
 fn check_bytes(telegram: &Telegram) -> Option<String> {
     telegram.check().map(|check| check.computed_bytes())
 }
 
 /// What is off, the most important first.
-fn compare(wanted: &Telegram, given: &[u8], typed_check: bool) -> Vec<Remark> {
+fn compare(wanted: &Telegram, given: &[u8], typed: usize, typed_check: bool) -> Vec<Remark> {
     let answer = wanted.with(given.to_vec());
     let (right, own) = (wanted.fields(false), answer.fields(false));
     let asks = wanted.direction == buslens::field::Direction::Request;
@@ -85,6 +113,8 @@ fn compare(wanted: &Telegram, given: &[u8], typed_check: bool) -> Vec<Remark> {
             continue;
         }
         match given {
+            // Behind what was typed stands only the checksum that was added.
+            Some(given) if given.span.to > typed => remarks.push(missing(wanted)),
             Some(given) if given.value == wanted.value => {}
             Some(given) => remarks.push(differs(wanted, given, asks)),
             None => remarks.push(missing(wanted)),
@@ -107,7 +137,13 @@ fn compare(wanted: &Telegram, given: &[u8], typed_check: bool) -> Vec<Remark> {
         // Nothing of the above: the first byte that differs.
         let at = wanted.bytes.iter().zip(given).take_while(|(one, other)| one == other).count();
         let field = wanted.field_at(at).map_or(String::new(), |field| field.label().to_string());
-        let text = message!("byte {n} is another one", n = at);
+        let byte = |bytes: &[u8]| hex(Span::new(at, at + 1).of(bytes));
+        let text = message!(
+            "byte {n} is {is}, it should be {should}",
+            n = at,
+            is = byte(given),
+            should = byte(&wanted.bytes)
+        );
         remarks.push(Remark::new(&field, text).at(Span::new(at, at + 1)));
     }
     remarks
@@ -115,15 +151,13 @@ fn compare(wanted: &Telegram, given: &[u8], typed_check: bool) -> Vec<Remark> {
 
 /// Each field that is wanted with its like among those that are given.
 fn pairs<'a>(wanted: &'a [Field], given: &'a [Field]) -> Vec<(&'a Field, Option<&'a Field>)> {
-    let mut used: HashMap<(&str, &str), usize> = HashMap::new();
-    let pair = |field: &'a Field| {
-        let name = (field.spec.key, field.spec.label);
-        let nth = used.entry(name).or_default();
-        let like = given.iter().filter(|other| (other.spec.key, other.spec.label) == name).nth(*nth);
-        *nth += 1;
-        (field, like)
+    let alike =
+        |one: &Field, other: &Field| (one.spec.key, one.spec.label) == (other.spec.key, other.spec.label);
+    let pair = |(at, field): (usize, &'a Field)| {
+        let nth = wanted[..at].iter().filter(|before| alike(before, field)).count();
+        (field, given.iter().filter(|other| alike(other, field)).nth(nth))
     };
-    wanted.iter().map(pair).collect()
+    wanted.iter().enumerate().map(pair).collect()
 }
 
 /// A field whose value is the sender's own choice.
@@ -132,7 +166,7 @@ fn is_free(field: &Field) -> bool {
 }
 
 /// A value as it is said in a sentence.
-fn value(field: &Field) -> String {
+pub(super) fn value(field: &Field) -> String {
     match (&field.value, field.meaning()) {
         (Value::Selector { raw, .. }, Some(meaning)) => format!("{raw} ({})", small(&meaning.to_string())),
         (Value::Number { .. }, Some(meaning)) if !field.spec.bits.is_empty() => {
@@ -159,27 +193,19 @@ fn differs(wanted: &Field, given: &Field, asks: bool) -> Remark {
     };
     let text = match slip {
         Some(slip) => message!(
-            "the {label} {what} ({is}, not {should}): {why}",
-            label = small(&label),
+            "{field} {what} ({is}, not {should}): {why}",
+            field = the(&label),
             what = Argument::Term(slip.what()),
             is = is,
             should = should,
             why = Argument::Term(slip.why())
         ),
         None if matches!(given.value, Value::Missing { .. }) => return missing(wanted),
-        None if asks => message!(
-            "the {label} is {is}, {should} was asked for",
-            label = small(&label),
-            is = is,
-            should = should
-        ),
+        None if asks => {
+            message!("{field} is {is}, {should} was asked for", field = the(&label), is = is, should = should)
+        }
         None => {
-            message!(
-                "the {label} is {is}, it should be {should}",
-                label = small(&label),
-                is = is,
-                should = should
-            )
+            message!("{field} is {is}, it should be {should}", field = the(&label), is = is, should = should)
         }
     };
     Remark::new(&label, text).at(given.span)
@@ -188,8 +214,8 @@ fn differs(wanted: &Field, given: &Field, asks: bool) -> Remark {
 fn missing(wanted: &Field) -> Remark {
     let label = wanted.label().to_string();
     let text = message!(
-        "the {label} is missing: {bytes} belong to it",
-        label = small(&label),
+        "{field} is missing: it has {bytes}",
+        field = the(&label),
         bytes = Message::bytes(wanted.span.len())
     );
     Remark::new(&label, text)
@@ -227,8 +253,8 @@ fn content(wanted: &Telegram, answer: &Telegram, asks: bool) -> Vec<Remark> {
 fn differs_in_bytes(field: &Field, wanted: &[u8], given: &[u8]) -> Remark {
     let label = field.label().to_string();
     let text = message!(
-        "the {label} is {is}, it should be {should}",
-        label = small(&label),
+        "{field} is {is}, it should be {should}",
+        field = the(&label),
         is = hex(given),
         should = hex(wanted)
     );
@@ -245,8 +271,8 @@ fn data(wanted: &Field, given: &Field, bytes: &[u8], own: &[u8], asks: bool) -> 
         let value = f32::from_bits(right as u32);
         if value.fract() == 0.0 && is == u64::from(value as u32) {
             let text = message!(
-                "the {label} is written as a whole number; a float of it has other bytes: {should}",
-                label = small(&label),
+                "{field} is written as a whole number; a float of it has other bytes: {should}",
+                field = the(&label),
                 should = hex(bytes)
             );
             return Remark::new(&label, text).at(wanted.span);

@@ -105,6 +105,11 @@ impl Step {
         }
     }
 
+    /// The same; what is not known stays as it is.
+    pub fn filled_in(&self, text: &str) -> String {
+        self.filled(text, &self.report()).unwrap_or_else(|_| text.to_owned())
+    }
+
     /// The same for a remark on telegram `index`, of which `own` is the field. What is not known stays as it is.
     pub fn filled_at(&self, text: &str, report: &Report, index: usize, own: Option<&str>) -> String {
         filled(text, report, index, own).unwrap_or_else(|_| text.to_owned())

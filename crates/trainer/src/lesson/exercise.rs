@@ -34,10 +34,10 @@ pub enum Ask {
     Point { field: String, wrong: Vec<(String, String)> },
     /// Fields of a telegram that are blank.
     Blank { telegram: String, fields: Vec<String> },
-    /// A telegram from nothing, with its checksum or without.
-    Build { telegram: String },
+    /// A telegram from nothing.
+    Build { telegram: String, checksum: Checksum },
     /// A damaged telegram that is to be made right.
-    Repair { damaged: String, telegram: String },
+    Repair { damaged: String, telegram: String, checksum: Checksum },
     /// Bits that are to be set.
     Bits { from: Vec<u8>, to: Vec<u8>, reading: Reading },
 }
@@ -52,11 +52,21 @@ pub enum Reading {
     Float,
 }
 
+/// Whose part the checksum of a telegram is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Checksum {
+    /// It is added where it was left away.
+    #[default]
+    Added,
+    /// It belongs to the answer.
+    Asked,
+}
+
 /// What separates a telegram from the request that it answers.
 const AFTER: &str = " after ";
 
-/// Says that digits by themselves are hex.
-const IN_HEX: &str = " in hex";
+/// How a number is to be written, where it matters.
+const NOTATIONS: [(&str, Notation); 2] = [(" in hex", Notation::Hex), (" in decimal", Notation::Decimal)];
 
 impl Exercise {
     /// Whether `answer` is right; otherwise what is off. The bytes that somebody set are given as text.
@@ -67,16 +77,36 @@ impl Exercise {
             }
             (Ask::Point { field, wrong }, Answer::Byte(at)) => point(step, field, wrong, *at),
             (Ask::Bits { to, reading, .. }, Answer::Text(text)) => set(to, *reading, &steps::bytes(text)),
+            (Ask::Number { .. }, Answer::Text(text)) if let Some(number) = without_counted(text) => {
+                self.grade(step, &Answer::Text(number.to_owned()))
+            }
             (Ask::Number { wrong, .. }, Answer::Text(text))
                 if let Ok(written) = notation::read(text, 8, Format::Decimal, Notation::Any)
                     && let Some((_, said)) = wrong.iter().find(|(value, _)| *value == written.raw) =>
             {
-                wrong_with("", message!("{said}", said = said.clone()), None)
+                wrong_with("", message!("{said}", said = step.filled_in(said)), None)
             }
             _ => match self.task(step) {
-                Some(task) => grade(&task, answer),
+                Some(task) => self.whole(&task, answer).unwrap_or_else(|| grade(&task, answer)),
                 None => Verdict::Unread(message!("there is no answer to this")),
             },
+        }
+    }
+
+    /// What there is to say where a checksum was asked for and everything but that is there.
+    fn whole(&self, task: &Task, answer: &Answer) -> Option<Verdict> {
+        let (Expected::Telegram(wanted), Answer::Text(text)) = (&task.expected, answer) else { return None };
+        let check = wanted.check().filter(|_| self.checksum() == Checksum::Asked)?;
+        let rest = wanted.bytes.get(..check.covered.to)?;
+        (steps::bytes(text) == rest)
+            .then(|| wrong_with("", message!("its checksum is missing, and here it is your part"), None))
+    }
+
+    /// Whose part the checksum is.
+    pub fn checksum(&self) -> Checksum {
+        match &self.ask {
+            Ask::Build { checksum, .. } | Ask::Repair { checksum, .. } => *checksum,
+            _ => Checksum::Added,
         }
     }
 
@@ -92,13 +122,16 @@ impl Exercise {
     /// The same as a task for all who know tasks; `None` for what is done with the pointer.
     pub fn task(&self, step: &Step) -> Option<Task> {
         let expected = match &self.ask {
-            Ask::Choose { choices, right } => Expected::Choice { choices: choices.clone(), right: *right },
+            Ask::Choose { choices, right } => {
+                let said = |it: &Choice| Choice::new(&it.text, &step.filled_in(&it.remark));
+                Expected::Choice { choices: choices.iter().map(said).collect(), right: *right }
+            }
             Ask::Number { value, .. } => Expected::Number(number(step, value)?),
             Ask::Blank { telegram, .. } => {
                 let blanks = self.blanks(step)?;
                 Expected::Blanks { telegram: known(telegram, &step.options())?, blanks }
             }
-            Ask::Build { telegram } | Ask::Repair { telegram, .. } => {
+            Ask::Build { telegram, .. } | Ask::Repair { telegram, .. } => {
                 Expected::Telegram(known(telegram, &step.options())?)
             }
             Ask::Point { .. } | Ask::Bits { .. } => return None,
@@ -115,7 +148,7 @@ impl Exercise {
     /// The telegram that is meant, where one is: with blanks, to build, or as it should be.
     pub fn telegram(&self, step: &Step) -> Option<Telegram> {
         match &self.ask {
-            Ask::Blank { telegram, .. } | Ask::Build { telegram } | Ask::Repair { telegram, .. } => {
+            Ask::Blank { telegram, .. } | Ask::Build { telegram, .. } | Ask::Repair { telegram, .. } => {
                 known(telegram, &step.options())
             }
             _ => None,
@@ -155,10 +188,20 @@ impl Exercise {
         })
     }
 
+    /// What is said of answers that are wrong.
+    fn remarks(&self) -> Vec<&String> {
+        match &self.ask {
+            Ask::Choose { choices, .. } => choices.iter().map(|choice| &choice.remark).collect(),
+            Ask::Number { wrong, .. } => wrong.iter().map(|(_, said)| said).collect(),
+            Ask::Point { wrong, .. } => wrong.iter().map(|(_, said)| said).collect(),
+            _ => Vec::new(),
+        }
+    }
+
     /// What the library does not say so, or cannot do.
     pub(super) fn check(&self, step: &Step, report: &Report, found: &mut Vec<Mistake>) {
         let mut say = |said: String| found.push(Mistake { line: self.line, said });
-        for text in [&self.question, &self.then].into_iter().chain(&self.hints) {
+        for text in [&self.question, &self.then].into_iter().chain(&self.hints).chain(self.remarks()) {
             if let Err(name) = step.filled(text, report) {
                 say(format!(
                     "In the words of this task, {{{name}}} is nothing that the telegrams of its step say."
@@ -196,7 +239,7 @@ impl Exercise {
                 }
                 None => say(no_telegram(telegram)),
             },
-            Ask::Build { telegram } | Ask::Repair { telegram, .. } => {
+            Ask::Build { telegram, .. } | Ask::Repair { telegram, .. } => {
                 if known(telegram, &step.options()).is_none() {
                     say(no_telegram(telegram));
                 }
@@ -213,6 +256,12 @@ impl Exercise {
             }
         }
     }
+}
+
+/// The number in front of what is counted: 21 of "21 ms".
+fn without_counted(text: &str) -> Option<&str> {
+    let counted = ["ms", "bytes", "bits", "registers", "characters"];
+    counted.iter().find_map(|word| text.trim_end().strip_suffix(word)).map(str::trim_end)
 }
 
 fn no_telegram(text: &str) -> String {
@@ -244,15 +293,13 @@ fn known(text: &str, options: &Options) -> Option<Telegram> {
 
 /// A number as written, or what a field of the step's telegrams holds.
 fn number(step: &Step, value: &str) -> Option<Number> {
-    let (value, notation) = match value.strip_suffix(IN_HEX) {
-        Some(value) => (value, Notation::Hex),
-        None => (value, Notation::Any),
-    };
+    let written = NOTATIONS.iter().find_map(|(word, notation)| Some((value.strip_suffix(word)?, *notation)));
+    let (value, notation) = written.unwrap_or((value, Notation::Any));
     let fractional = value.contains('.');
     let (width, format) = if fractional { (4, Format::Float) } else { (4, Format::Decimal) };
     if let Ok(written) = notation::read(value, width, format, Notation::Any) {
         let width = if written.raw > 0xFFFF || fractional { 4 } else { 2 };
-        return Some(Number::new("Number", written.raw, width, format).notation(notation));
+        return Some(Number::new("", written.raw, width, format).notation(notation));
     }
     let report = step.report();
     let all = (0..report.telegrams.len()).filter_map(|index| report.detail(index));
@@ -272,7 +319,7 @@ fn point(step: &Step, name: &str, wrong: &[(String, String)], at: usize) -> Verd
     let own = wrong.iter().filter_map(|(name, said)| Some((field(&detail, name)?, said)));
     if let Some((field, said)) = own.into_iter().find(|(field, _)| field.span.contains(at)) {
         let label = field.label().to_string();
-        return wrong_with(&label, message!("{said}", said = said.clone()), Some(field.span));
+        return wrong_with(&label, message!("{said}", said = step.filled_in(said)), Some(field.span));
     }
     let Some(other) = field::leaves(&detail.fields).into_iter().find(|leaf| leaf.span.contains(at)) else {
         return Verdict::Unread(message!("there is no byte {n}", n = at));
@@ -280,7 +327,7 @@ fn point(step: &Step, name: &str, wrong: &[(String, String)], at: usize) -> Verd
     let label = other.label().to_string();
     wrong_with(
         &label,
-        message!("byte {n} belongs to another field: {label}", n = at, label = label.clone()),
+        message!("this byte belongs to another field: {label}", label = label.clone()),
         Some(other.span),
     )
 }
@@ -317,6 +364,15 @@ fn set(to: &[u8], reading: Reading, given: &[u8]) -> Verdict {
         return wrong_with(part, text, Some(span));
     }
     let highest = 63 - off.leading_zeros();
+    if reading == Reading::Sum {
+        // Bits have no numbers yet, only what they are worth.
+        let (sum, weight) = (number(given), 1_u64 << highest);
+        let text = match sum & weight {
+            0 => message!("it is {sum} so far, and {weight} belongs to it", sum = sum, weight = weight),
+            _ => message!("it is {sum} now, and {weight} is too much", sum = sum, weight = weight),
+        };
+        return wrong_with("", text, None);
+    }
     let text = match number(given) >> highest & 1 {
         1 => message!(
             "bit {n} is worth {weight}: that is too much here",

@@ -15,7 +15,7 @@ use buslens::field::{Field, Span, in_order, leaves};
 use buslens::tool::{Detail, Options, Profile, Protocol, Report, decode};
 
 pub use all::LESSONS;
-pub use exercise::{Ask, Exercise, Reading};
+pub use exercise::{Ask, Checksum, Exercise, Reading};
 pub use progress::Progress;
 pub use read::read;
 pub(crate) use read::{is_known, key};

@@ -4,7 +4,7 @@
 use buslens::field::{Format, Span, in_order};
 use buslens::tool::{PROFILES, PROTOCOLS, Profile, Protocol, steps::bytes};
 
-use super::exercise::{Ask, Exercise, Reading};
+use super::exercise::{Ask, Checksum, Exercise, Reading};
 use super::{Lesson, Mistake, Place, Remark, Show, Statement, Step, Telegram};
 use crate::notation::{self, Notation};
 use crate::task::Choice;
@@ -285,12 +285,15 @@ impl Reader {
                 },
                 None => return self.say(number, "Expected “blank: Field; Field in bytes”, such as “blank: Quantity in 01 03 00 C8 00 03 84 35”."),
             },
-            "build" => Ask::Build { telegram: value.to_owned() },
+            "build" => {
+                let (telegram, checksum) = with_checksum(value);
+                Ask::Build { telegram, checksum }
+            }
             "repair" => match value.split_once("->") {
-                Some((damaged, telegram)) => Ask::Repair {
-                    damaged: damaged.trim().to_owned(),
-                    telegram: telegram.trim().to_owned(),
-                },
+                Some((damaged, telegram)) => {
+                    let (telegram, checksum) = with_checksum(telegram);
+                    Ask::Repair { damaged: damaged.trim().to_owned(), telegram, checksum }
+                }
                 None => return self.say(number, "Expected “repair: damaged bytes -> right bytes”."),
             },
             _ => match bits(value) {
@@ -408,6 +411,14 @@ fn show(word: &str) -> Option<Show> {
                 .filter(|rate| (300..=12_000_000).contains(rate))?,
         ),
     })
+}
+
+/// A telegram, and whether its checksum is asked for.
+fn with_checksum(text: &str) -> (String, Checksum) {
+    match text.split_once(" with checksum") {
+        Some((before, behind)) => (format!("{}{behind}", before.trim()), Checksum::Asked),
+        None => (text.trim().to_owned(), Checksum::Added),
+    }
 }
 
 /// A whole number as people write it: 200, 0xC8, C8h.

@@ -12,20 +12,8 @@ use crate::task::{Expected, Task, Telegram};
 pub const SLOTS: Slots = [LEVEL_1, LEVEL_2, LEVEL_3];
 
 const LEVEL_1: [Slot; 5] = [
-    |random| {
-        let (unit, from, count) = (unit(random), address(random), random.between(2, 9) as u16);
-        task(
-            format!("Ask unit {unit} for {count} holding registers, from address {from} on."),
-            short(unit, 3, from, count),
-        )
-    },
-    |random| {
-        let (unit, from, count) = (unit(random), address(random), random.between(2, 9) as u16);
-        task(
-            format!("Ask unit {unit} for {count} input registers, from address {from} on."),
-            short(unit, 4, from, count),
-        )
-    },
+    |random| from_on(random, 3),
+    |random| from_on(random, 4),
     |random| {
         let (unit, from, value) = (unit(random), address(random), word(random));
         task(
@@ -55,26 +43,8 @@ const LEVEL_1: [Slot; 5] = [
 ];
 
 const LEVEL_2: [Slot; 5] = [
-    |random| {
-        let (unit, from, count) = (unit(random), address(random), random.between(10, 40) as u16);
-        let (first, last) = (from + 1, from + count);
-        task(
-            format!(
-                "Ask unit {unit} for the holding registers 4{first:04} to 4{last:04}. These are references: they count from 1."
-            ),
-            short(unit, 3, from, count),
-        )
-    },
-    |random| {
-        let (unit, from, count) = (unit(random), address(random), random.between(10, 40) as u16);
-        let (first, last) = (from + 1, from + count);
-        task(
-            format!(
-                "Ask unit {unit} for the input registers 3{first:04} to 3{last:04}. These are references: they count from 1."
-            ),
-            short(unit, 4, from, count),
-        )
-    },
+    |random| references(random, 3),
+    |random| references(random, 4),
     |random| {
         let (unit, from) = (unit(random), address(random));
         let (one, other) = (word(random), word(random));
@@ -188,6 +158,34 @@ const LEVEL_3: [Slot; 5] = [
         )
     },
 ];
+
+/// The registers that a function reads, and the digit of their references.
+const fn registers(function: u8) -> (&'static str, u8) {
+    if function == 4 { ("input", 3) } else { ("holding", 4) }
+}
+
+/// So many registers from an address on.
+fn from_on(random: &mut Random, function: u8) -> Task {
+    let (unit, from, count) = (unit(random), address(random), random.between(2, 9) as u16);
+    let (kind, _) = registers(function);
+    task(
+        format!("Ask unit {unit} for {count} {kind} registers, from address {from} on."),
+        short(unit, function, from, count),
+    )
+}
+
+/// Registers by their references.
+fn references(random: &mut Random, function: u8) -> Task {
+    let (unit, from, count) = (unit(random), address(random), random.between(10, 40) as u16);
+    let (first, last) = (from + 1, from + count);
+    let (kind, digit) = registers(function);
+    task(
+        format!(
+            "Ask unit {unit} for the {kind} registers {digit}{first:04} to {digit}{last:04}. These are references: they count from 1."
+        ),
+        short(unit, function, from, count),
+    )
+}
 
 fn address(random: &mut Random) -> u16 {
     u16::from_be_bytes([random.between(1, 4) as u8, random.between(16, 190) as u8])

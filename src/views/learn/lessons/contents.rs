@@ -3,6 +3,7 @@
 use leptos::prelude::*;
 
 use super::files::Files;
+use super::onward::way;
 use super::state::{Course, Here, LessonsState, link_to};
 use crate::components::icon::{Glyph, Icon};
 use crate::views::learn::LearnState;
@@ -11,20 +12,29 @@ fn state() -> LessonsState {
     expect_context::<LearnState>().lessons
 }
 
-/// The lessons under their groups, both in their order.
-fn grouped(courses: Vec<Course>) -> Vec<(String, Vec<(usize, Course)>)> {
-    let mut groups: Vec<(String, Vec<(usize, Course)>)> = Vec::new();
-    for (course, number) in courses.into_iter().zip(1..) {
+/// The lessons under their groups, both in their order, each as `entry` draws it.
+fn groups(state: LessonsState, entry: &dyn Fn(usize, Course) -> AnyView) -> Vec<AnyView> {
+    let mut groups: Vec<(String, Vec<AnyView>)> = Vec::new();
+    for (course, number) in state.courses().into_iter().zip(1..) {
         let name = match course.lesson.group.as_str() {
             "" => "Your own".to_owned(),
             group => group.to_owned(),
         };
+        let entry = entry(number, course);
         match groups.iter_mut().find(|(group, _)| *group == name) {
-            Some((_, courses)) => courses.push((number, course)),
-            None => groups.push((name, vec![(number, course)])),
+            Some((_, entries)) => entries.push(entry),
+            None => groups.push((name, vec![entry])),
         }
     }
-    groups
+    let group = |(name, entries): (String, Vec<AnyView>)| {
+        view! {
+            <section>
+                <h3>{name}</h3>
+                <ol>{entries}</ol>
+            </section>
+        }
+    };
+    groups.into_iter().map(|it| group(it).into_any()).collect()
 }
 
 /// The number of a lesson, or a tick where it is done.
@@ -54,29 +64,23 @@ fn Sign(number: usize, course: Course) -> impl IntoView {
 pub fn Contents(here: Here) -> impl IntoView {
     let state = state();
     let open = here.course.lesson.key.clone();
-    let group = move |(name, courses): (String, Vec<(usize, Course)>)| {
-        let entry = |(number, course): (usize, Course)| {
-            let here = (course.lesson.key == open).then_some("page");
-            let to = link_to(&course.lesson, untrack(|| state.next(&course.lesson)));
-            view! {
-                <li>
-                    <a href=to aria-current=here>
-                        <Sign number course=course.clone() />
-                        {course.lesson.title.clone()}
-                    </a>
-                </li>
-            }
-        };
+    let entry = move |number: usize, course: Course| {
+        let here = (course.lesson.key == open).then_some("page");
+        let to = link_to(&course.lesson, untrack(|| state.next(&course.lesson)));
+        let title = course.lesson.title.clone();
         view! {
-            <section>
-                <h3>{name}</h3>
-                <ol>{courses.into_iter().map(entry).collect_view()}</ol>
-            </section>
+            <li>
+                <a href=to aria-current=here>
+                    <Sign number course />
+                    {title}
+                </a>
+            </li>
         }
+        .into_any()
     };
     view! {
         <nav class="contents" aria-label="All lessons">
-            {move || grouped(state.courses()).into_iter().map(&group).collect_view()}
+            {move || groups(state, &entry)}
         </nav>
     }
 }
@@ -98,15 +102,8 @@ pub fn Overview() -> impl IntoView {
         let begun = all.iter().filter(unfinished).find(|course| state.count(&course.lesson) > 0);
         let next = begun.or_else(|| all.iter().find(unfinished)).cloned()?;
         let step = state.next(&next.lesson);
-        let label = if steps().0 == 0 { "Begin with “" } else { "Go on with “" };
-        Some(view! {
-            <a class="button main" href=link_to(&next.lesson, step)>
-                {label}
-                {next.lesson.title.clone()}
-                "”"
-                <Icon glyph=Glyph::Forward />
-            </a>
-        })
+        let label = if steps().0 == 0 { "Begin with" } else { "Go on with" };
+        Some(way(link_to(&next.lesson, step), true, format!("{label} “{}”", next.lesson.title)))
     };
     let so_far = move || match steps() {
         (0, _) => {
@@ -115,49 +112,40 @@ pub fn Overview() -> impl IntoView {
         (done, all) if done == all => format!("All {all} steps are done."),
         (done, all) => format!("{done} of {all} steps are done."),
     };
-    let group = move |(name, courses): (String, Vec<(usize, Course)>)| {
-        let entry = move |(number, course): (usize, Course)| {
-            let lesson = course.lesson.clone();
-            let to = link_to(&lesson, untrack(|| state.next(&lesson)));
-            let removable = course.own.then(|| {
-                let course = course.clone();
-                view! {
-                    <button
-                        type="button"
-                        class="button low plain icon-only"
-                        aria-label=format!("Remove “{}”", course.lesson.title)
-                        on:click=move |_| state.remove(&course)
-                    >
-                        <Icon glyph=Glyph::Close />
-                    </button>
-                }
-            });
-            let far = {
-                let lesson = lesson.clone();
-                move || match (state.count(&lesson), lesson.steps.len()) {
-                    (0, _) => format!("{} min", lesson.minutes.max(1)),
-                    (done, steps) if done == steps => "done".to_owned(),
-                    (done, steps) => format!("{done} of {steps}"),
-                }
-            };
+    let entry = move |number: usize, course: Course| {
+        let lesson = course.lesson.clone();
+        let to = link_to(&lesson, untrack(|| state.next(&lesson)));
+        let (title, about) = (lesson.title.clone(), lesson.about.clone());
+        let removable = course.own.then(|| {
+            let course = course.clone();
             view! {
-                <li>
-                    <a href=to>
-                        <Sign number course=course.clone() />
-                        <b>{lesson.title.clone()}</b>
-                        <span class="about">{lesson.about.clone()}</span>
-                        <span class="far">{far}</span>
-                    </a>
-                    {removable}
-                </li>
+                <button
+                    type="button"
+                    class="button low plain icon-only"
+                    aria-label=format!("Remove “{title}”")
+                    on:click=move |_| state.remove(&course)
+                >
+                    <Icon glyph=Glyph::Close />
+                </button>
             }
+        });
+        let far = move || match (state.count(&lesson), lesson.steps.len()) {
+            (0, _) => format!("{} min", lesson.minutes.max(1)),
+            (done, steps) if done == steps => "done".to_owned(),
+            (done, steps) => format!("{done} of {steps}"),
         };
         view! {
-            <section>
-                <h3>{name}</h3>
-                <ol>{courses.into_iter().map(entry).collect_view()}</ol>
-            </section>
+            <li>
+                <a href=to>
+                    <Sign number course />
+                    <b>{title}</b>
+                    <span class="about">{about}</span>
+                    <span class="far">{far}</span>
+                </a>
+                {removable}
+            </li>
         }
+        .into_any()
     };
     view! {
         <div class="overview">
@@ -169,7 +157,7 @@ pub fn Overview() -> impl IntoView {
                 </p>
                 {go_on}
             </header>
-            {move || grouped(state.courses()).into_iter().map(group).collect_view()}
+            {move || groups(state, &entry)}
             <Files />
         </div>
     }

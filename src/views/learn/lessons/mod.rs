@@ -5,12 +5,12 @@ mod exercise;
 mod files;
 mod line;
 mod log;
+mod onward;
 mod sides;
 mod state;
 mod step;
 mod switches;
 mod walk;
-mod words;
 
 use leptos::prelude::*;
 
@@ -19,9 +19,10 @@ use crate::components::roving;
 use contents::{Contents, Overview};
 use exercise::Exercise;
 use files::Refusal;
+use onward::Around;
 use state::Here;
 pub use state::LessonsState;
-use step::{Around, StepText};
+use step::StepText;
 
 #[component]
 pub fn Lessons() -> impl IntoView {

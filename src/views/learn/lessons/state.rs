@@ -1,6 +1,5 @@
 //! The lessons that there are, what somebody has done of them, and what was typed.
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
 use leptos::prelude::*;
@@ -10,10 +9,11 @@ use web_sys::File;
 use crate::address::{View, href};
 use crate::browser::{file, storage};
 use crate::components::toast::Toasts;
+use crate::views::learn::attempt::Attempt;
 use buslens::field::in_order;
 use buslens::tool::link::Link;
+use buslens_trainer::Answer;
 use buslens_trainer::lesson::{LESSONS, Lesson, Mistake, Progress, Step, read};
-use buslens_trainer::{Answer, Verdict};
 
 /// A lesson with its text, which can be saved, changed and opened again.
 #[derive(Clone)]
@@ -32,15 +32,6 @@ pub struct Here {
     pub step: usize,
 }
 
-/// What somebody did with a task so far.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Attempt {
-    pub answer: Option<Answer>,
-    pub verdict: Option<Verdict>,
-    /// How many hints are shown.
-    pub hints: usize,
-}
-
 /// A file that holds no lesson as it should.
 #[derive(Clone)]
 pub struct Refused {
@@ -52,7 +43,8 @@ pub struct Refused {
 pub struct LessonsState {
     courses: RwSignal<Vec<Course>>,
     pub progress: RwSignal<Progress>,
-    attempts: RwSignal<HashMap<String, Attempt>>,
+    /// By the places of their steps.
+    attempts: RwSignal<Vec<(String, Attempt)>>,
     pub refused: RwSignal<Option<Refused>>,
     pub not_kept: RwSignal<Option<storage::NotKept>>,
     toasts: Toasts,
@@ -78,7 +70,7 @@ impl LessonsState {
         let state = Self {
             courses: RwSignal::new(courses(own.split(BETWEEN).filter(|text| !text.is_empty()))),
             progress: RwSignal::new(kept(&storage::kept(PROGRESS).unwrap_or_default())),
-            attempts: RwSignal::new(HashMap::new()),
+            attempts: RwSignal::new(Vec::new()),
             refused: RwSignal::new(None),
             not_kept: RwSignal::new(None),
             toasts: expect_context(),
@@ -117,11 +109,19 @@ impl LessonsState {
     }
 
     pub fn attempt(self, place: &str) -> Attempt {
-        self.attempts.with(|all| all.get(place).cloned().unwrap_or_default())
+        let own =
+            |all: &Vec<(String, Attempt)>| all.iter().find(|(of, _)| of == place).map(|(_, it)| it.clone());
+        self.attempts.with(own).unwrap_or_default()
     }
 
     pub fn change(self, place: &str, change: impl FnOnce(&mut Attempt)) {
-        self.attempts.update(|all| change(all.entry(place.to_owned()).or_default()));
+        self.attempts.update(|all| {
+            let at = all.iter().position(|(of, _)| of == place).unwrap_or(all.len());
+            if at == all.len() {
+                all.push((place.to_owned(), Attempt::default()));
+            }
+            change(&mut all[at].1);
+        });
     }
 
     /// Grades what was answered. A right answer finishes the step.
@@ -134,8 +134,8 @@ impl LessonsState {
             self.keep();
         }
         self.change(&here.place(), |attempt| {
-            attempt.answer = Some(answer);
-            attempt.verdict = Some(verdict);
+            attempt.enter(answer);
+            attempt.take(verdict);
         });
     }
 
@@ -149,7 +149,7 @@ impl LessonsState {
         let before = self.progress.get_untracked();
         let attempts = self.attempts.get_untracked();
         self.progress.set(Progress::default());
-        self.attempts.update(HashMap::clear);
+        self.attempts.update(Vec::clear);
         self.keep();
         self.toasts.offer("All lessons are as if you had not begun.", "Undo", move || {
             self.progress.set(before.clone());

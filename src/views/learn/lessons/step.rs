@@ -10,13 +10,11 @@ use super::log::LogLines;
 use super::sides::Sides;
 use super::state::{Here, link_to};
 use super::walk::Walk;
-use super::words::Words;
 use crate::address::{View, href};
-use crate::browser::file;
-use crate::components::icon::{Glyph, Icon};
 use crate::components::telegram::Shown;
 use crate::views::check::{Calculation, CheckState, link_to as link_to_check};
 use crate::views::learn::LearnState;
+use crate::views::learn::words::Words;
 use buslens::field::Span;
 use buslens::tool::link::Link;
 use buslens::tool::{Report, steps::CHECKS};
@@ -31,41 +29,31 @@ pub fn StepText(here: Here) -> impl IntoView {
         .text
         .iter()
         .map(|text| {
-            // What is not known stands as it is written.
-            let text = step.filled(text, &report).unwrap_or_else(|_| text.clone());
+            let text = step.filled_in(text);
             view! { <p><Words text /></p> }
         })
         .collect();
     let options = step.options();
     let shown: Vec<Shown> =
         (0..report.telegrams.len()).filter_map(|index| Shown::of(&report, index, &options)).collect();
-    let body = match step.show {
-        Show::Bytes if shown.is_empty() => ().into_any(),
-        Show::Bytes => view! { <Walk step=step.clone() shown=shown.clone() /> }.into_any(),
-        Show::Sides => view! { <Sides step=step.clone() shown=shown.clone() /> }.into_any(),
-        Show::Checksum => view! { <Checksum shown=shown.clone() /> }.into_any(),
+    let walk =
+        || (!shown.is_empty()).then(|| view! { <Walk step=step.clone() shown=shown.clone() /> }.into_any());
+    let (above, body) = match step.show {
+        Show::Bytes => (None, walk()),
+        Show::Sides => (None, Some(view! { <Sides step=step.clone() shown=shown.clone() /> }.into_any())),
+        Show::Checksum => (None, shown.first().cloned().map(|first| view! { <Checksum first /> }.into_any())),
         Show::Line(rate) => {
             let bytes = shown.iter().map(|shown| shown.bytes().to_vec()).collect::<Vec<_>>();
-            view! {
-                <Line rate bytes />
-                <Walk step=step.clone() shown=shown.clone() />
-            }
-            .into_any()
+            (Some(view! { <Line rate bytes /> }.into_any()), walk())
         }
-        Show::Log => {
-            let walk = (!shown.is_empty()).then(|| view! { <Walk step=step.clone() shown=shown.clone() /> });
-            view! {
-                <LogLines step=step.clone() />
-                {walk}
-            }
-            .into_any()
-        }
+        Show::Log => (Some(view! { <LogLines step=step.clone() /> }.into_any()), walk()),
     };
     view! {
         <article class="step" aria-labelledby="step-title">
             <Way here=here.clone() />
             <h2 id="step-title" tabindex="-1">{step.title.clone()}</h2>
             <div class="prose">{text}</div>
+            {above}
             {body}
             <Elsewhere step shown report />
         </article>
@@ -119,11 +107,9 @@ fn Way(here: Here) -> impl IntoView {
 
 /// The CRC of the first telegram, bit by bit.
 #[component]
-fn Checksum(shown: Vec<Shown>) -> impl IntoView {
+fn Checksum(first: Shown) -> impl IntoView {
     let state = CheckState::new();
-    if let Some(first) = shown.first()
-        && let Some(check) = first.detail.check()
-    {
+    if let Some(check) = first.detail.check() {
         let span = Span::new(check.covered.from, check.covered.to + check.width);
         state.follow(link_to_check(span.of(first.bytes()), check.kind));
     }
@@ -162,40 +148,4 @@ fn Elsewhere(step: Step, shown: Vec<Shown>, report: Arc<Report>) -> impl IntoVie
         </p>
     }
     .into_any()
-}
-
-/// Back, and the lesson as a file.
-#[component]
-pub fn Around(here: Here) -> impl IntoView {
-    let course = here.course.clone();
-    let lesson = course.lesson.clone();
-    let back = here.step.checked_sub(1).map(|step| link_to(&lesson, step));
-    let next = (here.step + 1 < lesson.steps.len()).then(|| link_to(&lesson, here.step + 1));
-    let save = move |_| file::save(&format!("{}.txt", course.lesson.key), &course.text);
-    view! {
-        <footer class="around">
-            {back
-                .map(|to| {
-                    view! {
-                        <a class="button" href=to>
-                            <Icon glyph=Glyph::Back />
-                            "Back"
-                        </a>
-                    }
-                })}
-            {next
-                .map(|to| {
-                    view! {
-                        <a class="button" href=to>
-                            "Skip this task"
-                            <Icon glyph=Glyph::Forward />
-                        </a>
-                    }
-                })}
-            <button type="button" class="button plain low" on:click=save>
-                <Icon glyph=Glyph::Save />
-                "Save this lesson as a file"
-            </button>
-        </footer>
-    }
 }

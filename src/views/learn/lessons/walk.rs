@@ -2,10 +2,10 @@
 
 use leptos::prelude::*;
 
-use super::words::Words;
 use crate::components::byte_strip::{ByteStrip, Chosen, Lights, blocks, role_class};
 use crate::components::icon::{Glyph, Icon};
 use crate::components::telegram::Shown;
+use crate::views::learn::words::Words;
 use buslens::field::{Direction, Role, Span, hex};
 use buslens::tool::byte::shares;
 use buslens_trainer::lesson::{Place, Step, field};

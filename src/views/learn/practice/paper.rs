@@ -4,13 +4,14 @@ use leptos::prelude::*;
 
 use super::given::caption;
 use super::go;
-use super::state::Where;
+use super::parts::button;
+use super::series::{Series, Shared};
+use super::state::{Screen, Where};
 use crate::browser::file;
-use crate::components::icon::{Glyph, Icon};
+use crate::components::icon::Glyph;
 use crate::components::segments::Segments;
 use crate::views::learn::LearnState;
 use buslens::field::hex;
-use buslens_trainer::practice::Round;
 use buslens_trainer::{Expected, Given, Task, course, letter};
 
 /// Which sheets are shown, and printed.
@@ -21,95 +22,77 @@ enum Sheets {
     Key,
 }
 
-#[component]
-pub fn Paper(round: Round) -> impl IntoView {
+pub fn paper(series: Shared) -> AnyView {
     let learn = expect_context::<LearnState>();
     let sheets = RwSignal::new(Sheets::Both);
-    let tasks = StoredValue::new(round.questions());
     let options = vec![
         (Sheets::Both, "Both".to_owned()),
         (Sheets::Handout, "Handout".to_owned()),
         (Sheets::Key, "Answer key".to_owned()),
     ];
-    let title = format!("{}, level {}", round.kind.label(), round.level);
-    let name = format!("buslens-{}-{}-{}", round.kind.key(), round.level, round.seed);
-    let moodle = {
-        let (name, title) = (name.clone(), title.clone());
-        move |_| {
-            let text = tasks.with_value(|tasks| course::moodle_xml(&title, &round.place(), tasks));
-            file::save(&format!("{name}.xml"), &text);
-        }
-    };
-    let gift = {
-        let title = title.clone();
-        move |_| {
-            let text = tasks.with_value(|tasks| course::gift(&title, &round.place(), tasks));
-            file::save(&format!("{name}.txt"), &text);
-        }
-    };
-    let foot = format!("Buslens practice {} · seed {}", round.place(), round.seed);
-    let handout = {
-        let (title, foot) = (title.clone(), foot.clone());
+    let saved = |ending: &'static str, write: fn(&str, &str, &[Task]) -> String| {
+        let series = series.clone();
         move || {
-            let questions = tasks.with_value(|tasks| tasks.iter().enumerate().map(question).collect_view());
+            let text = write(&series.name(), &series.source.place(), &series.tasks);
+            file::save(&format!("{}.{ending}", series.file()), &text);
+        }
+    };
+    let (moodle, gift) = (saved("xml", course::moodle_xml), saved("txt", course::gift));
+    let source = series.source.clone();
+    let back = move || go(learn, Where::In(source.clone(), Screen::Question(0)));
+    // A browser that cannot print does nothing.
+    let print = || drop(window().print());
+    let shown = move || {
+        let sheets = sheets.get();
+        let rows = |row: fn(&Series, usize, &Task) -> AnyView| {
+            series.tasks.iter().enumerate().map(|(at, task)| row(&series, at, task)).collect::<Vec<_>>()
+        };
+        let foot = || series.foot();
+        let handout = (sheets != Sheets::Key).then(|| {
             view! {
                 <article class="paper handout" aria-label="Handout">
                     <header>
-                        <h3>{title.clone()}</h3>
+                        <h3>{series.name()}</h3>
                         <p class="who"><span>"Name"</span><span>"Date"</span></p>
                     </header>
-                    <ol>{questions}</ol>
-                    <footer>{foot.clone()}</footer>
+                    <ol>{rows(question)}</ol>
+                    <footer>{foot()}</footer>
                 </article>
             }
-        }
-    };
-    let key = move || {
-        let answers = tasks.with_value(|tasks| tasks.iter().map(answer).collect_view());
-        view! {
-            <article class="paper key" aria-label="Answer key">
-                <header>
-                    <h3>{format!("Answer key: {title}")}</h3>
-                </header>
-                <ol>{answers}</ol>
-                <footer>{foot.clone()}</footer>
-            </article>
-        }
+        });
+        let key = (sheets != Sheets::Handout).then(|| {
+            view! {
+                <article class="paper key" aria-label="Answer key">
+                    <header>
+                        <h3>{format!("Answer key: {}", series.name())}</h3>
+                    </header>
+                    <ol>{rows(answer)}</ol>
+                    <footer>{foot()}</footer>
+                </article>
+            }
+        });
+        (handout, key)
     };
     view! {
         <div class="tools">
-            <button type="button" class="button plain" on:click=move |_| go(learn, Where::Question(round, 0))>
-                <Icon glyph=Glyph::Back />
-                "Back to the questions"
-            </button>
+            {button("button plain", Glyph::Back, "Back to the questions", back)}
             <Segments label="Sheets" options=options value=sheets on_choose=Callback::new(move |chosen| sheets.set(chosen)) />
-            <button
-                type="button"
-                class="button main"
-                on:click=move |_| {
-                    // A browser that cannot print does nothing.
-                    let _ = window().print();
-                }
-            >
-                <Icon glyph=Glyph::Print />
-                "Print"
-            </button>
-            <button type="button" class="button" on:click=moodle>
-                <Icon glyph=Glyph::Save />
-                "Moodle XML"
-            </button>
-            <button type="button" class="button" on:click=gift>
-                <Icon glyph=Glyph::Save />
-                "GIFT"
-            </button>
+            {button("button main", Glyph::Print, "Print", print)}
+            {button("button", Glyph::Save, "Moodle XML", moodle)}
+            {button("button", Glyph::Save, "GIFT", gift)}
         </div>
-        <Show when=move || sheets.get() != Sheets::Key>{handout.clone()}</Show>
-        <Show when=move || sheets.get() != Sheets::Handout>{key.clone()}</Show>
+        {shown}
     }
+    .into_any()
+}
+
+/// What a task is called, before what it asks.
+fn called(series: &Series, at: usize) -> Option<impl IntoView + use<>> {
+    series.titles.get(at).map(|title| view! { <p class="called">{title.clone()}</p> })
 }
 
 /// A question with room to write.
-fn question((index, task): (usize, &Task)) -> impl IntoView + use<> {
+fn question(series: &Series, index: usize, task: &Task) -> AnyView {
     // What is to be completed is another one.
     let alone = task.given.len() == 1 && !matches!(task.expected, Expected::Blanks { .. });
     let given = task.given.iter().map(|given| match given {
@@ -119,7 +102,7 @@ fn question((index, task): (usize, &Task)) -> impl IntoView + use<> {
             view! {
                 <figure>
                     <figcaption>{caption(telegram, alone)}</figcaption>
-                    <Grid cells />
+                    {grid(cells)}
                 </figure>
             }
             .into_any()
@@ -130,7 +113,7 @@ fn question((index, task): (usize, &Task)) -> impl IntoView + use<> {
         // As many as are needed would tell something.
         Expected::Telegram(telegram) => {
             let cells = vec![String::new(); telegram.bytes.len().next_multiple_of(8)];
-            view! { <Grid cells /> }.into_any()
+            grid(cells)
         }
         Expected::Number(number) => {
             view! { <p class="line"><span>{number.label.clone()}</span></p> }.into_any()
@@ -149,22 +132,23 @@ fn question((index, task): (usize, &Task)) -> impl IntoView + use<> {
                 false => format!("{byte:02X}"),
             };
             let cells: Vec<String> = telegram.bytes.iter().enumerate().map(cell).collect();
-            view! { <Grid cells /> }.into_any()
+            grid(cells)
         }
     };
     view! {
         <li>
+            {called(series, index)}
             <p class="asked">{format!("{}. {}", index + 1, task.question)}</p>
             {given}
             {room}
             <p class="space" aria-hidden="true"></p>
         </li>
     }
+    .into_any()
 }
 
 /// Bytes, or room for them, with their numbers.
-#[component]
-fn Grid(cells: Vec<String>) -> impl IntoView {
+fn grid(cells: Vec<String>) -> AnyView {
     let cell = |(at, text): (usize, String)| {
         let empty = text.is_empty();
         view! {
@@ -174,10 +158,10 @@ fn Grid(cells: Vec<String>) -> impl IntoView {
             </li>
         }
     };
-    view! { <ul class="grid">{cells.into_iter().enumerate().map(cell).collect_view()}</ul> }
+    view! { <ul class="grid">{cells.into_iter().enumerate().map(cell).collect_view()}</ul> }.into_any()
 }
 
-fn answer(task: &Task) -> impl IntoView + use<> {
+fn answer(series: &Series, index: usize, task: &Task) -> AnyView {
     let given = task.given.iter().map(|given| match given {
         Given::Text(_) => "A log".to_owned(),
         Given::Telegram(telegram) => hex(&telegram.bytes),
@@ -186,10 +170,12 @@ fn answer(task: &Task) -> impl IntoView + use<> {
     let working = task.working.iter().map(|step| view! { <li>{step.clone()}</li> }).collect_view();
     view! {
         <li>
+            {called(series, index)}
             <p class="asked">{task.question.clone()}</p>
             {(!given.is_empty()).then(|| view! { <p class="mono soft">{given}</p> })}
             <p class="right">{task.expected.text()}</p>
             <ol>{working}</ol>
         </li>
     }
+    .into_any()
 }

@@ -4,24 +4,21 @@ use leptos::prelude::*;
 use leptos::task::spawn_local;
 use web_sys::File;
 
-use super::go;
-use super::state::Where;
+use super::parts::{lines as place, pressed, to_start};
+use super::series::Series;
 use crate::browser::file;
-use crate::components::icon::{Glyph, Icon};
+use crate::components::icon::Glyph;
 use crate::components::open_file::OpenFile;
-use crate::components::toast::Toasts;
 use crate::components::wide_table::WideTable;
 use crate::views::learn::LearnState;
 use buslens_trainer::practice::QUESTIONS;
-use buslens_trainer::result::{self, About, Line, RoundResult};
+use buslens_trainer::result::{self, About, Line};
 
-#[component]
-pub fn Results() -> impl IntoView {
+pub fn results() -> AnyView {
     let learn = expect_context::<LearnState>();
-    let toasts = expect_context::<Toasts>();
     let codes = learn.practice.codes;
     let lines = Memo::new(move |_| codes.with(|text| result::lines(text)));
-    let open = Callback::new(move |one: File| {
+    let open = move |one: File| {
         spawn_local(async move {
             match file::text(&one, MOST).await {
                 Ok(text) => codes.update(|all| {
@@ -31,100 +28,95 @@ pub fn Results() -> impl IntoView {
                     // Who it is of, the file's name tells, where it says nothing itself.
                     let own = one.name();
                     let own = own.rsplit_once('.').map_or(own.as_str(), |(name, _)| name);
-                    let alone = result::lines(&text).len() == 1;
-                    for line in result::lines(&text) {
+                    let read = result::lines(&text);
+                    let alone = read.len() == 1;
+                    for line in read {
                         let name = if line.name.is_empty() && alone { own } else { &line.name };
                         *all += &format!("{name} {}\n", line.code);
                     }
                 }),
-                Err(why) => toasts.say(why.sentence()),
+                Err(why) => learn.practice.say(why.sentence()),
             }
         });
-    });
-    let row = |line: Line| {
-        let Line { name, code, result } = line;
-        match result {
-            Ok(RoundResult { about: About::Set(seed), right }) => view! {
-                <tr>
-                    <th scope="row">{name}</th>
-                    <td><code>{code}</code></td>
-                    <td>"A set"</td>
-                    <td></td>
-                    <td><code>{seed.to_string()}</code></td>
-                    <td class="number">{right}</td>
-                </tr>
-            }
-            .into_any(),
-            Ok(RoundResult { about: About::Round(round), right }) => view! {
-                <tr>
-                    <th scope="row">{name}</th>
-                    <td><code>{code}</code></td>
-                    <td>{round.kind.label()}</td>
-                    <td class="number">{round.level}</td>
-                    <td><code>{round.seed.to_string()}</code></td>
-                    <td class="number">{format!("{right} of {QUESTIONS}")}</td>
-                </tr>
-            }
-            .into_any(),
-            Err(why) => view! {
-                <tr class="no-code">
-                    <th scope="row">{name}</th>
-                    <td><code>{code}</code></td>
-                    <td colspan="4">{why.sentence()}</td>
-                </tr>
-            }
-            .into_any(),
+    };
+    let save = move |()| file::save("buslens-results.csv", &lines.with_untracked(|lines| result::csv(lines)));
+    let none = Signal::derive(move || lines.with(Vec::is_empty));
+    let row = move |line: Line| {
+        let [what, level, seed, right] = cells(learn, &line);
+        let problem = line.result.is_err();
+        view! {
+            <tr class:no-code=problem>
+                <th scope="row">{line.name}</th>
+                <td><code>{line.code}</code></td>
+                <td colspan=if problem { "4" } else { "1" }>{what}</td>
+                {(!problem)
+                    .then(|| {
+                        view! {
+                            <td class="number">{level}</td>
+                            <td><code>{seed}</code></td>
+                            <td class="number">{right}</td>
+                        }
+                    })}
+            </tr>
         }
+    };
+    let heads = ["Name", "Code", "Practice", "Level", "Seed", "Right at once"];
+    let table = move || {
+        let rows: Vec<_> = lines.get().into_iter().map(row).collect();
+        (!rows.is_empty()).then(|| {
+            view! {
+                <WideTable label="Results">
+                    <thead>
+                        <tr>{heads.map(|head| view! { <th scope="col">{head}</th> }).into_iter().collect_view()}</tr>
+                    </thead>
+                    <tbody>{rows}</tbody>
+                </WideTable>
+            }
+        })
     };
     view! {
         <div class="results">
-            <button type="button" class="button plain low" on:click=move |_| go(learn, Where::Start)>
-                <Icon glyph=Glyph::Back />
-                "All kinds"
-            </button>
+            {to_start(learn)}
             <h3 class="headline">"Results of a group"</h3>
-            <label class="typed">
-                <span>"Codes, one a line, with a name beside each"</span>
-                <textarea
-                    class="input mono"
-                    rows="6"
-                    spellcheck="false"
-                    placeholder="Anna 20MF-K7QM"
-                    prop:value=codes
-                    on:input=move |event| codes.set(event_target_value(&event))
-                ></textarea>
-            </label>
+            {place(
+                "Codes, one a line, with a name beside each",
+                "6",
+                "Anna 20MF-K7QM",
+                codes,
+                move |text| codes.set(text),
+            )}
             <div class="acts">
-                <OpenFile label="Open files" accept=".txt,text/plain" multiple=true on_open=open />
-                <button
-                    type="button"
-                    class="button"
-                    prop:disabled=move || lines.with(Vec::is_empty)
-                    on:click=move |_| file::save("buslens-results.csv", &lines.with_untracked(|lines| result::csv(lines)))
-                >
-                    <Icon glyph=Glyph::Save />
-                    "Save as CSV"
-                </button>
+                <OpenFile label="Open files" multiple=true accept=".txt,text/plain" on_open=Callback::new(open) />
+                {pressed("button", Some(Glyph::Save), "Save as CSV".into(), none, Callback::new(save))}
             </div>
-            <Show when=move || !lines.with(Vec::is_empty)>
-                <WideTable label="Results">
-                    <thead>
-                        <tr>
-                            <th scope="col">"Name"</th>
-                            <th scope="col">"Code"</th>
-                            <th scope="col">"Practice"</th>
-                            <th scope="col">"Level"</th>
-                            <th scope="col">"Seed"</th>
-                            <th scope="col">"Right at once"</th>
-                        </tr>
-                    </thead>
-                    <tbody>{move || lines.get().into_iter().map(row).collect_view()}</tbody>
-                </WideTable>
-            </Show>
+            {table}
             <p class="note">
                 "Nothing is sent anywhere: who sits before this page sees the table, and nobody else. A code is short, not secret."
             </p>
         </div>
+    }
+    .into_any()
+}
+
+/// What was asked, level, seed, and how many were right; or what is wrong with the code.
+fn cells(learn: LearnState, line: &Line) -> [String; 4] {
+    match &line.result {
+        Err(why) => [why.sentence().to_owned(), String::new(), String::new(), String::new()],
+        Ok(result) => match result.about {
+            About::Round(round) => [
+                round.kind.label().to_owned(),
+                round.level.to_string(),
+                round.seed.to_string(),
+                format!("{} of {QUESTIONS}", result.right),
+            ],
+            About::Set(seed) => {
+                // Its title and how many tasks it has, the set says, where it was opened here.
+                let set = learn.practice.text(seed).map(|text| Series::of_set(&text));
+                let count = set.as_ref().map_or(String::new(), |set| format!(" of {}", set.tasks.len()));
+                let title = set.map_or_else(|| "A set that is not opened here".to_owned(), |set| set.title);
+                [title, String::new(), seed.to_string(), format!("{}{count}", result.right)]
+            }
+        },
     }
 }
 

@@ -1,23 +1,24 @@
 //! A question for everybody in the room: large, and one field at a time by arrow key.
 
 use leptos::ev::{self, KeyboardEvent};
-use leptos::html;
 use leptos::prelude::*;
 
 use super::given::{bare, named};
 use super::go;
-use super::state::Where;
+use super::parts::{button, pressed};
+use super::series::Shared;
+use super::state::{Screen, Where};
 use crate::browser::typing::is_typed_into;
 use crate::components::byte_strip::{Block, ByteStrip, Lights};
-use crate::components::icon::{Glyph, Icon};
+use crate::components::icon::Glyph;
 use crate::views::learn::LearnState;
-use buslens_trainer::practice::{QUESTIONS, Round};
 use buslens_trainer::{Expected, Given, Task, Telegram, letter};
 
-#[component]
-pub fn Wall(round: Round, index: usize) -> impl IntoView {
+pub fn wall(series: Shared, index: usize) -> AnyView {
     let learn = expect_context::<LearnState>();
-    let Some(task) = round.questions().into_iter().nth(index) else { return ().into_any() };
+    let Some(task) = series.tasks.get(index).cloned() else { return ().into_any() };
+    let source = series.source.clone();
+    let to = Callback::new(move |screen| go(learn, Where::In(source.clone(), screen)));
     let telegram = shown(&task).map(|telegram| (telegram.clone(), named(&telegram)));
     // A log or a choice has its answer as the only step.
     let steps = telegram.as_ref().map_or(0, |(_, blocks)| blocks.len()) + 1;
@@ -30,14 +31,13 @@ pub fn Wall(round: Round, index: usize) -> impl IntoView {
         match event.key().as_str() {
             "ArrowRight" | "ArrowDown" | "PageDown" | " " => turn(1),
             "ArrowLeft" | "ArrowUp" | "PageUp" => turn(-1),
-            "Escape" => go(learn, Where::Question(round, index)),
+            "Escape" => to.run(Screen::Question(index)),
             _ => return,
         }
         event.prevent_default();
     };
     let listener = window_event_listener(ev::keydown, keys);
     on_cleanup(move || listener.remove());
-    let headline = NodeRef::<html::H3>::new();
     let strip = telegram.map(|(telegram, blocks)| {
         let blocks = Memo::new(move |_| opened(&telegram, &blocks, step.get()));
         view! { <ByteStrip blocks lights=Lights::new() size="large" label="The telegram" /> }
@@ -61,39 +61,31 @@ pub fn Wall(round: Round, index: usize) -> impl IntoView {
         _ => None,
     };
     let answer = task.expected.text();
+    let said = move || if step.get() == steps { answer.clone() } else { String::new() };
+    let label = Signal::derive(move || {
+        let label = if step.get() + 1 >= steps { "Answer" } else { "Next field" };
+        label.to_owned()
+    });
+    let [first, last] = [0, steps].map(|end| Signal::derive(move || step.get() == end));
+    let next = (index + 1 < series.tasks.len())
+        .then(|| button("button plain", None, "Next question", move || to.run(Screen::Wall(index + 1))));
     view! {
         <article class="wall">
-            <h3 node_ref=headline>{task.question.clone()}</h3>
+            <h3>{task.question.clone()}</h3>
             {text}
             {before}
             {strip}
             {choices}
             <p class="wall-answer" aria-live="polite">
-                {move || if step.get() == steps { answer.clone() } else { String::new() }}
+                {said}
             </p>
             <div class="tools">
-                <button type="button" class="button" prop:disabled=move || step.get() == 0 on:click=move |_| turn(-1)>
-                    <Icon glyph=Glyph::Back />
-                    "Back"
-                </button>
-                <button type="button" class="button main" prop:disabled=move || step.get() == steps on:click=move |_| turn(1)>
-                    {move || if step.get() + 1 >= steps { "Answer" } else { "Next field" }}
-                    <Icon glyph=Glyph::Forward />
-                </button>
+                {pressed("button", Some(Glyph::Back), "Back".into(), first, Callback::new(move |()| turn(-1)))}
+                {pressed("button main", Some(Glyph::Forward), label, last, Callback::new(move |()| turn(1)))}
                 <span class="soft">"Arrow keys do the same."</span>
                 <span class="rest"></span>
-                {(index + 1 < QUESTIONS)
-                    .then(|| {
-                        view! {
-                            <button type="button" class="button plain" on:click=move |_| go(learn, Where::Wall(round, index + 1))>
-                                "Next question"
-                            </button>
-                        }
-                    })}
-                <button type="button" class="button plain" on:click=move |_| go(learn, Where::Question(round, index))>
-                    <Icon glyph=Glyph::Close />
-                    "Leave the wall"
-                </button>
+                {next}
+                {button("button plain", Glyph::Close, "Leave the wall", move || to.run(Screen::Question(index)))}
             </div>
         </article>
     }

@@ -1,9 +1,10 @@
-//! What was found, a row each. Only the rows in sight exist.
+//! What was found, a row each. Only the rows in sight exist; on paper, all of them.
 
 use std::sync::Arc;
 
 use leptos::ev::{self, KeyboardEvent, MouseEvent};
 use leptos::html;
+use leptos::leptos_dom::helpers::WindowListenerHandle;
 use leptos::prelude::*;
 
 use super::{about, is_topic};
@@ -30,7 +31,10 @@ pub fn Table(
     let visible = RwSignal::new(600_usize);
     let high = RwSignal::new(row_height());
     let resized = window_event_listener(ev::resize, move |_| high.set(row_height()));
-    on_cleanup(move || resized.remove());
+    let printed = RwSignal::new(false);
+    let prints = ["beforeprint", "afterprint"]
+        .map(|event| window_event_listener_untyped(event, move |_| printed.set(event == "beforeprint")));
+    on_cleanup(move || [resized].into_iter().chain(prints).for_each(WindowListenerHandle::remove));
     let total = Memo::new(move |_| rows.with(Vec::len));
     let limited = Memo::new(move |_| {
         let limits = |item: &Arc<Item>| match &item.about {
@@ -45,8 +49,14 @@ pub fn Table(
             visible.set(list.client_height().max(200) as usize);
         }
     };
-    let first = Memo::new(move |_| (scrolled.get() / high.get()).saturating_sub(MORE));
-    let last = Memo::new(move |_| ((scrolled.get() + visible.get()) / high.get() + MORE).min(total.get()));
+    let first = Memo::new(move |_| match printed.get() {
+        true => 0,
+        false => (scrolled.get() / high.get()).saturating_sub(MORE),
+    });
+    let last = Memo::new(move |_| match printed.get() {
+        true => total.get(),
+        false => ((scrolled.get() + visible.get()) / high.get() + MORE).min(total.get()),
+    });
     let shown = move || {
         let (first, last) = (first.get(), last.get());
         rows.with(|rows| {

@@ -1,6 +1,7 @@
 //! What chooses among the telegrams of the log.
 
 use gloo_timers::callback::Timeout;
+use leptos::html;
 use leptos::prelude::*;
 
 use crate::components::icon::{Glyph, Icon};
@@ -36,8 +37,19 @@ pub fn Filters(folded: RwSignal<bool>) -> impl IntoView {
         let noun = many(all, "row");
         if log.is_filtered() { format!("{total} of {noun}") } else { format!("{noun}, {} not ok", wrong()) }
     };
+    let bar = NodeRef::<html::Section>::new();
+    // Where the story is high and the window low, the list may be out of sight.
+    Effect::new(move |before: Option<()>| {
+        log.to_list.track();
+        let height = window().inner_height().ok().and_then(|it| it.as_f64()).unwrap_or_default();
+        if let Some(bar) = bar.get().filter(|_| before.is_some())
+            && bar.get_bounding_client_rect().bottom() > height * 0.7
+        {
+            bar.scroll_into_view();
+        }
+    });
     view! {
-        <section class="filters" aria-label="Choose among the telegrams">
+        <section class="filters" aria-label="Choose among the telegrams" node_ref=bar>
             <label class="search">
                 <Icon glyph=Glyph::Search />
                 <input

@@ -117,6 +117,7 @@ fn FileBar() -> impl IntoView {
                     {Export::FILES.map(export).into_iter().collect_view()}
                     <MenuItem on_choose=Callback::new(move |()| pass_on.set(true))>"A log to pass on"</MenuItem>
                     <MenuLink href="#/sheet">"A report to print"</MenuLink>
+                    <MenuLink href="#/learn?place=practice.read">"A task for learners"</MenuLink>
                 </Menu>
                 <button type="button" class="button main" on:click=sum_up>
                     <Icon glyph=Glyph::Mail />

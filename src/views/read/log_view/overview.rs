@@ -30,6 +30,7 @@ pub fn Overview() -> impl IntoView {
                 filter.unit = number;
                 filter.port = Some(port).filter(|_| number.is_some());
             });
+            log.to_list.notify();
         };
         let name = number.map_or("The line".to_owned(), |number| format!("Unit {number}"));
         view! {

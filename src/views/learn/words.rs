@@ -1,4 +1,4 @@
-//! Sentences of a lesson.
+//! Sentences of a task.
 
 use leptos::prelude::*;
 
