@@ -144,6 +144,8 @@ struct Keeper {
     written: String,
     step: Step,
     waiting: Option<Timeout>,
+    /// What stands in the history, and what was typed there when somebody went on before it was written.
+    left: Vec<(String, String)>,
     /// The views that were shown already, and so have what they show.
     visited: Vec<View>,
 }
@@ -155,6 +157,7 @@ impl Address {
             written: String::new(),
             step: Step::Typed,
             waiting: None,
+            left: Vec::new(),
             visited: Vec::new(),
         };
         Self { view: RwSignal::new(split(&here()).0), keeper: StoredValue::new_local(keeper) }
@@ -225,8 +228,18 @@ impl Address {
         let fragment = here();
         let (view, content) = split(&fragment);
         let Some(shows) = self.shows() else { return };
+        // What was to be written is of before, whose place in the history cannot be changed any more.
+        let before = self.view.get_untracked();
+        if self.keeper.with_value(|keeper| keeper.waiting.is_some()) {
+            let typed = shows.link(before);
+            self.keeper.update_value(|keeper| {
+                let place = keeper.written.clone();
+                keeper.left.retain(|(left, _)| *left != place);
+                keeper.left.push((place, written(&typed)));
+            });
+            let _ = storage::keep(before.content().key(), &kept_text(typed).unwrap_or_default());
+        }
         let first = self.keeper.try_update_value(|keeper| {
-            // What was to be written is of before.
             keeper.waiting = None;
             keeper.step = Step::Typed;
             keeper.written.clone_from(&fragment);
@@ -236,6 +249,17 @@ impl Address {
             }
             first
         });
+        let typed = self.keeper.try_update_value(|keeper| {
+            let at = keeper.left.iter().position(|(left, _)| *left == fragment)?;
+            Some(keeper.left.swap_remove(at).1)
+        });
+        if let Some(typed) = typed.flatten() {
+            if first == Some(true) || typed != written(&shows.link(view)) {
+                shows.follow(view, read(&typed));
+            }
+            self.view.set(view);
+            return self.write().await;
+        }
         let key = view.content().key();
         let kept_here = (first == Some(true)).then(|| storage::kept_for_reload(key)).flatten();
         if content.is_empty() {

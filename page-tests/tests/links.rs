@@ -157,3 +157,20 @@ async fn a_damaged_link_is_told() -> Result {
     assert_eq!(page.value("return document.activeElement.tagName").await?, json!("MAIN"));
     page.close().await
 }
+
+/// What was typed is there again even for who went on before the address followed.
+#[tokio::test(flavor = "multi_thread")]
+async fn what_was_typed_last_comes_back() -> Result {
+    let page = Page::open_at("#/build", DESKTOP, false).await?;
+    page.one(".finder input").await?;
+    page.fragment().await?;
+    let typed = "const field = document.querySelector('.making .entry input'); field.focus(); field.select(); \
+        document.execCommand('insertText', false, '37'); location.hash = '#/check'; return field.value";
+    assert_eq!(page.value(typed).await?, json!("37"));
+    page.one("main h2, .check").await?;
+    page.driver.back().await?;
+    page.one(".making .entry input").await?;
+    page.settle().await?;
+    assert_eq!(page.value("return document.querySelector('.making .entry input').value").await?, json!("37"));
+    page.close().await
+}

@@ -5,6 +5,7 @@ use leptos::html;
 use leptos::prelude::*;
 use leptos::reactive::graph::Source;
 
+use super::kept::{Kept, kept};
 use super::roving;
 use buslens::field::{Field, Numbering, Role, Severity, Span, Value, leaves};
 use buslens::tool::{Detail, Entry};
@@ -76,9 +77,11 @@ pub struct Block {
     pub bytes: Vec<u8>,
 }
 
+/// What a block is told apart by while a telegram is edited: all but what its bytes say.
+type Place = (Span, usize, String, String, &'static str);
+
 impl Block {
-    /// What it is told apart by while a telegram is edited: all but what its bytes say.
-    fn place(&self) -> (Span, usize, String, String, &'static str) {
+    fn place(&self) -> Place {
         (self.span, self.bytes.len(), self.name.clone(), self.label.clone(), self.class)
     }
 }
@@ -130,17 +133,13 @@ pub fn ByteStrip(
         }
         blocks.with(|all| all.iter().filter(|block| block.span.from < MOST).cloned().collect::<Vec<_>>())
     };
-    let block = move |index: ReadSignal<usize>, first: Block| {
+    let block = move |Kept { key, item }: Kept<Place, Block>| {
         made.update_value(|made| *made += 1);
-        let (span, length, label) = (first.span, first.bytes.len(), first.label.clone());
-        let block = Memo::new(move |before: Option<&Block>| {
-            let now = blocks.with(|all| all.get(index.get()).cloned());
-            // One that is just being taken away stays as it was.
-            now.or_else(|| before.cloned()).unwrap_or_else(|| first.clone())
-        });
+        let (span, length, name, label, class) = key;
+        let block = RwSignal::from(item);
         let class = move || {
             let block = block.read();
-            let mut class = block.class.to_owned();
+            let mut class = class.to_owned();
             for (holds, name) in [
                 (block.faulty, " faulty"),
                 (lights.points_at(span), " pointed"),
@@ -150,6 +149,7 @@ pub fn ByteStrip(
             }
             class
         };
+        let named = StoredValue::new(name);
         let cell = |at: usize| {
             let (is_stop, is_chosen) = (is_stop.clone(), is_chosen.clone());
             let byte = move || {
@@ -162,7 +162,7 @@ pub fn ByteStrip(
                     role="option"
                     tabindex=move || if is_stop.selected(&at) { "0" } else { "-1" }
                     aria-selected=move || is_chosen.selected(&Some(at)).to_string()
-                    aria-label=move || format!("{}, {}, byte {at}", byte(), block.read().name)
+                    aria-label=move || format!("{}, {}, byte {at}", byte(), named.read_value())
                     on:click=move |_| choose(at)
                 >
                     {byte}
@@ -198,7 +198,7 @@ pub fn ByteStrip(
             on:keydown=keys
             on:pointerleave=move |_| lights.pointed.set(None)
         >
-            <ForEnumerate each=shown key=Block::place children=block />
+            <For each=kept(shown, Block::place) key=|kept| kept.key.clone() children=block />
             {more}
         </ol>
     }

@@ -8,6 +8,7 @@ use leptos::html;
 use leptos::prelude::*;
 
 use super::byte_strip::{Chosen, Lights, is_faulty, role_class};
+use super::kept::{Kept, kept};
 use super::roving;
 use buslens::field::{Bits, Field, Message, Role, Span, Value, hex};
 use buslens::tool::{self, Detail};
@@ -97,13 +98,8 @@ pub fn FieldTable(
             }
         }
     };
-    let row = move |index: ReadSignal<usize>, first: Arc<Row>| {
-        let place = first.place.clone();
-        let row = Memo::new(move |before: Option<&Arc<Row>>| {
-            let now = shown.with(|rows| rows.get(index.get()).cloned());
-            // One that is just being taken away stays as it was.
-            now.or_else(|| before.cloned()).unwrap_or_else(|| first.clone())
-        });
+    let row = move |Kept { key: place, item }: Kept<Place, Arc<Row>>| {
+        let row = RwSignal::from(item);
         let class = move || {
             let row = row.read();
             let is_own = |lit: Option<Span>| !row.span.is_empty() && lit == Some(row.span);
@@ -125,7 +121,8 @@ pub fn FieldTable(
         let (is_stop, this) = (is_stop.clone(), Some(place.id.clone()));
         let (id, opens) = (place.id, place.opens.is_some());
         let click = move |_| {
-            stop.set(index.get_untracked());
+            let at = shown.with_untracked(|rows| rows.iter().position(|row| row.place.id == id));
+            stop.set(at.unwrap_or_default());
             choose(row.read_untracked().span);
             if opens {
                 turn(id.clone());
@@ -176,7 +173,7 @@ pub fn FieldTable(
                 </tr>
             </thead>
             <tbody role="rowgroup" node_ref=body>
-                <ForEnumerate each=move || shown.get() key=|row| row.place.clone() children=row />
+                <For each=kept(move || shown.get(), |row| row.place.clone()) key=|kept| kept.key.clone() children=row />
             </tbody>
         </table>
     }

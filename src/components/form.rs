@@ -8,9 +8,10 @@ use leptos::prelude::*;
 
 use super::byte_strip::role_class;
 use super::icon::{Glyph, Icon};
+use super::kept::{Kept, kept};
 use super::segments::Segments;
 use buslens::field::{Bits, Message, Name, Role, Spec, count, hex, number_text};
-use buslens::tool::{Change, Content, Entries, Entry, parse_value};
+use buslens::tool::{Change, Content, Entries, Entry, Misfit, parse_value};
 
 /// What a person did with an entry.
 #[derive(Clone, Debug)]
@@ -40,7 +41,7 @@ impl Edit {
 /// What every entry of a form knows.
 #[derive(Clone, Copy)]
 struct Shared {
-    entries: Signal<Entries>,
+    misfits: RwSignal<Vec<Misfit>>,
     on_edit: Callback<(String, Edit)>,
     on_focus: Option<Callback<Entry>>,
     /// Tells the fields of several forms in a page apart.
@@ -51,11 +52,8 @@ struct Shared {
 impl Shared {
     /// What is wrong with an entry: it does not fit, or should not be so.
     fn said(&self, entry: &Entry) -> String {
-        let misfit = self.entries.with(|all| {
-            all.misfits
-                .iter()
-                .find(|misfit| misfit.path == entry.path)
-                .map(|misfit| misfit.message.sentence())
+        let misfit = self.misfits.with(|misfits| {
+            misfits.iter().find(|misfit| misfit.path == entry.path).map(|misfit| misfit.message.sentence())
         });
         let spec = entry.spec;
         misfit.map(|misfit| misfit + ".").unwrap_or_else(|| match &entry.content {
@@ -98,9 +96,17 @@ pub fn Form(
             shown.collect::<Vec<_>>()
         })
     });
+    // Only who has to say another one is told.
+    let misfits = RwSignal::new(entries.with_untracked(|all| all.misfits.clone()));
+    Effect::new(move |_| {
+        let now = entries.with(|all| all.misfits.clone());
+        if misfits.with_untracked(|before| *before != now) {
+            misfits.set(now);
+        }
+    });
     view! {
         // Each form of the page has a context of its own.
-        <Provider value=Shared { entries, on_edit, on_focus, number, named }>
+        <Provider value=Shared { misfits, on_edit, on_focus, number, named }>
             <div class="form">{level(shown.into(), false)}</div>
         </Provider>
     }
@@ -167,18 +173,14 @@ fn list(entry: Signal<Entry>) -> impl IntoView {
     let shared = expect_context::<Shared>();
     let path = StoredValue::new(entry.with_untracked(|entry| entry.path.clone()));
     let edit = move |edit: Edit| shared.on_edit.run((path.get_value(), edit));
-    let items = Memo::new(move |_| {
-        entry.with(|entry| match &entry.content {
-            Content::List { items } => items.clone(),
-            _ => Vec::new(),
-        })
-    });
-    let length = Memo::new(move |_| items.with(Vec::len));
-    let item = move |index: usize| {
-        let entries = Memo::new(move |_| items.with(|items| items.get(index).cloned().unwrap_or_default()));
+    let length = Memo::new(move |_| entry.with(|entry| items(entry).len()));
+    let numbered = move || entry.with(|entry| items(entry).iter().cloned().enumerate().collect::<Vec<_>>());
+    let item = move |Kept { key: index, item }: Kept<usize, (usize, Vec<Entry>)>| {
+        let item = RwSignal::from(item);
+        let entries = Signal::derive(move || item.read().1.clone());
         view! {
             <div class="item">
-                {level(entries.into(), true)}
+                {level(entries, true)}
                 <button
                     type="button"
                     class="button plain icon-only"
@@ -197,12 +199,20 @@ fn list(entry: Signal<Entry>) -> impl IntoView {
                 {label} " " <small>{move || length.get().to_string()}</small>
             </legend>
             {(!note.is_empty()).then(|| view! { <p class="note">{note}</p> })}
-            <For each=move || 0..length.get() key=|index| *index children=item />
+            <For each=kept(numbered, |(index, _)| *index) key=|kept| kept.key children=item />
             <button type="button" class="button low" on:click=move |_| edit(Edit::Add)>
                 <Icon glyph=Glyph::Add />
                 "Add one"
             </button>
         </fieldset>
+    }
+}
+
+/// The items of a list.
+fn items(entry: &Entry) -> &[Vec<Entry>] {
+    match &entry.content {
+        Content::List { items } => items,
+        _ => &[],
     }
 }
 

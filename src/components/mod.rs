@@ -14,6 +14,7 @@ pub mod foot;
 pub mod form;
 pub mod header;
 pub mod icon;
+pub mod kept;
 pub mod menu;
 pub mod open_file;
 pub mod page_menu;
