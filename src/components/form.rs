@@ -253,7 +253,8 @@ fn single(entry: Signal<Entry>, within_list: bool) -> impl IntoView {
             .into_any()
         }
     };
-    let hint = move || entry.with(|entry| hint(entry, within_list));
+    let hint = Memo::new(move |_| entry.with(|entry| hint(entry, within_list)));
+    let nothing = move || said.with(String::is_empty) && hint.with(String::is_empty);
     let text = move || entry.with(|entry| entry.label().sentence());
     // Switches have labels of their own.
     let label = match by_name_only && !spec.bits.is_empty() {
@@ -264,7 +265,7 @@ fn single(entry: Signal<Entry>, within_list: bool) -> impl IntoView {
         <div class=format!("entry {}", role_class(spec.role)) on:focusin=focus>
             {label}
             {control}
-            <p class="about" id=about>
+            <p class="about" id=about hidden=nothing>
                 <span class="misfit" aria-live="polite">{said}</span>
                 <small>{hint}</small>
             </p>

@@ -56,8 +56,8 @@ impl Search<'_> {
         self.missing_of_sum(check, right);
     }
 
-    /// A byte that was lost before `check`. A sum says which one, and leaves open where it was: a length or a byte
-    /// count may tell.
+    /// A byte that was lost before `check`. Some byte always fits at each place: only a length or a byte count can
+    /// tell that one is missing, and where.
     fn missing_of_sum(&mut self, check: usize, right: impl Fn(&[u8]) -> bool) {
         let bytes = self.bytes;
         let with = |at: usize, byte: u8| [&bytes[..at], &[byte], &bytes[at..]].concat();
@@ -66,7 +66,7 @@ impl Search<'_> {
             let whole = with(at, byte);
             // Beside its like, it is the same wherever it was.
             if bytes[at - 1] != byte && right(&whole) {
-                self.add(Cause::ByteMissing, at, whole, Some(bytes.len()));
+                self.add(Cause::ByteMissing, at, whole, Some(self.checks * bytes.len()));
             }
         }
     }
