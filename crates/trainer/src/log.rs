@@ -243,6 +243,15 @@ impl Log {
         }
     }
 
+    fn is_profibus(&self) -> bool {
+        self.report.telegrams.iter().any(|it| it.choice.protocol.key.starts_with("profibus"))
+    }
+
+    fn intro(&self) -> String {
+        let who = if self.is_profibus() { "master" } else { "client" };
+        format!("A log from a plant: TX is what the {who} sends, RX what it hears.")
+    }
+
     fn given(&self) -> Vec<Given> {
         vec![Given::Text(self.text.clone())]
     }
@@ -267,9 +276,7 @@ impl Log {
             |line| format!("Look at line {}.", line + 1),
         );
         Ok(Task {
-            question:
-                "A log from a plant: TX is what the client sends, RX what it hears. What is wrong here?"
-                    .to_owned(),
+            question: format!("{} What is wrong here?", self.intro()),
             given: self.given(),
             hints: vec![
                 "Go through it line by line: which response belongs to which request?".to_owned(),
@@ -314,15 +321,13 @@ impl Log {
             let said = if silent.is_empty() { "every unit answers" } else { "several units never answer" };
             return Err(format!("“find: unit” asks which unit never answers, and here {said}."));
         };
-        let profibus = self.report.telegrams.iter().any(|it| it.choice.protocol.key.starts_with("profibus"));
+        let profibus = self.is_profibus();
         let who = if profibus { "station" } else { "unit" };
         let others: Vec<String> =
             asked.iter().filter(|other| **other != unit).map(|other| other.to_string()).collect();
         let label = if profibus { "Station" } else { "Unit" };
         Ok(Task {
-            question: format!(
-                "A log from a plant: TX is what the client sends, RX what it hears. Which {who} never answers? Give its address in decimal."
-            ),
+            question: format!("{} Which {who} never answers? Give its address in decimal.", self.intro()),
             given: self.given(),
             hints: vec![
                 "Look for a TX without an RX behind it.".to_owned(),
