@@ -9,13 +9,13 @@ use crate::steps::Result;
 /// tables (a vtable of all that can be read leads to all of it), Leptos, and what shows a telegram. 1 kB is 1000 bytes.
 const FIRST_VIEW: u64 = 450_000;
 
-/// The most bytes of the whole page, with all views and the reader of logs. 1.2 MB were the limit before Learn came,
-/// which is a fifth of it and loaded when somebody goes there.
-const WHOLE: u64 = 1_250_000;
+/// The most bytes of the whole page, with all views and the reader of logs. 1.2 MB are the aim,
+/// kept without Learn, which is a quarter of it and loaded when somebody goes there.
+const WHOLE: u64 = 1_300_000;
 
 /// The most bytes of the page as one file, as it lies on a disk. In base64, the modules take four thirds of what
 /// they take on the way; 1 MB was the aim before Learn came.
-const ONE_FILE: u64 = 1_800_000;
+const ONE_FILE: u64 = 1_850_000;
 
 /// What the bundler calls the files whose names have no hash.
 const DOCUMENT: &str = "index.html";
