@@ -257,13 +257,12 @@ impl Later {
         }
         stage.set(Stage::Loading);
         spawn_local(async move {
+            let has_style = part == Part::Log || stylesheet::load_later().await;
             let loaded = match part {
+                _ if !has_style => Err(NotLoaded),
                 Part::Views => views().await,
                 Part::Log => log().await,
-                Part::Learn => match stylesheet::load_later().await {
-                    true => learn().await,
-                    false => Err(NotLoaded),
-                },
+                Part::Learn => learn().await,
             };
             stage.set(match loaded {
                 Ok(content) => {

@@ -2,7 +2,7 @@
 
 use leptos::prelude::document;
 use wasm_bindgen_futures::JsFuture;
-use web_sys::js_sys::Promise;
+use web_sys::js_sys::{Promise, Reflect};
 
 use super::edition;
 
@@ -11,14 +11,25 @@ pub async fn load_later() -> bool {
     // The page as one file has all of it from the start.
     let Some(address) = edition::later_style() else { return true };
     let put = || {
-        let link = document().create_element("link").ok()?;
-        link.set_attribute("rel", "stylesheet").ok()?;
-        link.set_attribute("href", &address).ok()?;
+        // Two parts of the page may ask for it.
+        let known = document().query_selector(&format!("link[rel=stylesheet][href='{address}']")).ok()?;
+        let link = match known {
+            Some(link) => link,
+            None => document().create_element("link").ok()?,
+        };
         let loaded = Promise::new(&mut |there, gone| {
+            // It has a sheet once it is loaded.
+            if Reflect::get(&link, &"sheet".into()).is_ok_and(|sheet| sheet.is_object()) {
+                let _ = there.call0(&link);
+            }
             let _ = link.add_event_listener_with_callback("load", &there);
             let _ = link.add_event_listener_with_callback("error", &gone);
         });
-        document().query_selector("head").ok()??.append_child(&link).ok()?;
+        if !link.is_connected() {
+            link.set_attribute("rel", "stylesheet").ok()?;
+            link.set_attribute("href", &address).ok()?;
+            document().query_selector("head").ok()??.append_child(&link).ok()?;
+        }
         Some((link, loaded))
     };
     let Some((link, loaded)) = put() else { return false };

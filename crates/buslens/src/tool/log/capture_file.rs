@@ -103,7 +103,7 @@ impl Log {
         const CLIENT: u16 = 49_152;
         const MODBUS: u16 = 502;
         if let Some(connection) =
-            self.capture().and_then(|capture| capture.connections().get(usize::from(port)))
+            self.capture().and_then(|capture| capture.connections().get(usize::from(port).checked_sub(1)?))
         {
             return (connection.client, connection.server);
         }

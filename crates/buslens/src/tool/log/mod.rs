@@ -480,7 +480,7 @@ impl Log {
     pub fn port_name(&self, port: u16) -> Option<String> {
         #[cfg(feature = "captures")]
         if let Some(capture) = self.capture() {
-            let connection = capture.connections().get(usize::from(port))?;
+            let connection = capture.connections().get(usize::from(port).checked_sub(1)?)?;
             return Some(format!("{} – {}", connection.client, connection.server));
         }
         self.ports.names.get(usize::from(port).checked_sub(1)?).cloned()
@@ -561,7 +561,6 @@ fn of_segment<'a>(segment: &Segment<'a>) -> Chunk<'a> {
             bytes: segment.bytes,
             time: segment.time,
             hint: sent.map_or(Hint::None, |sent| if sent { Hint::Logger } else { Hint::Other }),
-            port: u16::try_from(segment.connection).unwrap_or(u16::MAX),
             line: segment.line,
             offset: segment.offset,
             // Nothing stands in the packet but the telegram.
@@ -574,7 +573,8 @@ fn of_segment<'a>(segment: &Segment<'a>) -> Chunk<'a> {
         bytes: segment.bytes,
         time: segment.time,
         hint: Hint::Says(direction),
-        port: u16::try_from(segment.connection).unwrap_or(u16::MAX),
+        // 0 is the line, as in texts.
+        port: u16::try_from(segment.connection + 1).unwrap_or(u16::MAX),
         joins: !segment.gap && !segment.datagram,
         both_ways: true,
         known_port: segment.ports.contains(&MODBUS),
