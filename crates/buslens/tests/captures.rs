@@ -174,7 +174,7 @@ fn telegrams_are_found_in_connections() {
     let found: Vec<_> = log.entries().iter().map(|it| (it.direction, it.unit, log.latency(&it))).collect();
     assert_eq!(found.len(), 2, "{found:?}");
     assert_eq!(found[1].0, Direction::Response);
-    assert_eq!(log.port_name(0).unwrap(), "10.0.0.5:49152 – 10.0.0.9:502");
+    assert_eq!(log.port_name(log.entry(0).port).unwrap(), "10.0.0.5:49152 – 10.0.0.9:502");
     let rtu = [1, 3, 0, 200, 0, 3, 0x84, 0x35];
     let log = Log::read(
         &capture(FORMS[0], &[(5, packet(true, 1, ACK, &rtu))]),
