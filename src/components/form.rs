@@ -174,6 +174,8 @@ fn list(entry: Signal<Entry>) -> impl IntoView {
     let path = StoredValue::new(entry.with_untracked(|entry| entry.path.clone()));
     let edit = move |edit: Edit| shared.on_edit.run((path.get_value(), edit));
     let length = Memo::new(move |_| entry.with(|entry| items(entry).len()));
+    // More than fits the window: what is out of sight is not laid out.
+    let is_long = move || length.get() > 16;
     let numbered = move || entry.with(|entry| items(entry).iter().cloned().enumerate().collect::<Vec<_>>());
     let item = move |Kept { key: index, item }: Kept<usize, (usize, Vec<Entry>)>| {
         let item = RwSignal::from(item);
@@ -194,7 +196,7 @@ fn list(entry: Signal<Entry>) -> impl IntoView {
     };
     let (label, note) = entry.with_untracked(|entry| (entry.label().sentence(), entry.spec.note));
     view! {
-        <fieldset class="list">
+        <fieldset class="list" class:long=is_long>
             <legend>
                 {label} " " <small>{move || length.get().to_string()}</small>
             </legend>

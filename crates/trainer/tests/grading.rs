@@ -59,6 +59,12 @@ fn a_request_in_any_spelling_is_right() {
         verdict(&tcp, "12 34 00 00 00 06 FF 03 00 C8 00 03").is_right(),
         "the transaction is the client's own"
     );
+    // A lesson may be about no more than the first byte.
+    for (wanted, given) in [("00", "01"), ("00 07", "00 08")] {
+        let cut = telegram(wanted, Direction::Request, "modbus-tcp", "");
+        assert!(verdict(&cut, wanted).is_right());
+        assert!(!verdict(&cut, given).is_right(), "{given} for {wanted}");
+    }
     let ascii = telegram("01 03 00 C8 00 03 31", Direction::Request, "modbus-ascii", "");
     assert!(verdict(&ascii, ":010300C8000331").is_right());
     assert!(verdict(&ascii, "010300C80003").is_right());
