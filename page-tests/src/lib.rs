@@ -174,6 +174,7 @@ impl Page {
     pub async fn fill(&self, css: &str, text: &str) -> Result {
         let script = "const field = document.querySelector(arguments[0]); field.focus(); field.select(); \
                       document.execCommand(arguments[1] ? 'insertText' : 'delete', false, arguments[1])";
+        self.one(css).await?;
         self.driver.execute(script, vec![json!(css), json!(text)]).await?;
         self.settle().await
     }
@@ -182,6 +183,7 @@ impl Page {
     pub async fn pick(&self, css: &str, value: &str) -> Result {
         let script = "const list = document.querySelector(arguments[0]); list.value = arguments[1]; \
                       list.dispatchEvent(new Event('change', { bubbles: true }))";
+        self.one(css).await?;
         self.driver.execute(script, vec![json!(css), json!(value)]).await?;
         self.settle().await
     }
