@@ -23,6 +23,7 @@ mod redact;
 mod rows;
 mod seen;
 mod story;
+mod sums;
 
 pub use crate::dialogue::traffic::{Dialog, Entries, Entry, Lines, Minutes, Role, Statistics};
 pub use crate::text::{LAYOUTS, Layout, Marks, Numbers, Place};
@@ -40,6 +41,8 @@ pub use pictures::{Bucket, Held, Point, Timeline};
 pub use redact::{Hidden, Kind, Redacted, Replaced};
 pub use seen::{Seen, seen};
 pub use story::time_text;
+
+use sums::Sums;
 
 use std::cell::OnceCell;
 use std::collections::HashMap;
@@ -122,6 +125,9 @@ pub struct Log {
     transcoded: Option<Vec<u8>>,
     fault: Option<String>,
     statistics: Statistics,
+    /// Some responses took much longer than others.
+    some_slow: bool,
+    sums: OnceCell<Sums>,
     /// The telegrams that set up what others mean.
     teaching: OnceCell<Vec<usize>>,
 }
@@ -293,6 +299,8 @@ impl Log {
             transcoded,
             fault: None,
             statistics: Statistics::default(),
+            some_slow: false,
+            sums: OnceCell::new(),
             teaching: OnceCell::new(),
         })
     }
@@ -366,6 +374,9 @@ impl Log {
     /// Counts what was settled so far, so that it can be looked at while the rest is read.
     pub fn look(&mut self) {
         self.statistics = statistics(&self.traffic);
+        let mut dialogs = self.statistics.dialogs.iter();
+        self.some_slow = dialogs.any(|dialog| dialog.worst.is_some_and(|worst| list::is_slow(dialog, worst)));
+        self.sums.take();
         self.teaching.take();
         if let Way::Text(reader) | Way::Utf16 { reader, .. } = &self.input {
             self.lines = reader.lines();
