@@ -69,7 +69,7 @@ impl Log {
         };
         let span = i128::from(to) - i128::from(from) + 1;
         // Most telegrams are of the same stretch as the one before: its first and last place.
-        let (mut place, mut stretch) = (0, 1..=0);
+        let (mut place, mut stretch) = (0, from..=from);
         for (index, entry) in self.entries().iter().enumerate() {
             let at = if timed.is_some() { entry.time() } else { Some(index as i64) };
             let Some(at) = at.filter(|at| (from..=to).contains(at)) else { continue };
