@@ -158,7 +158,7 @@ enum Way {
 /// A capture that is read from its file. It stands behind a trait so that a program that never opens one does
 /// without what reads the file: 10 kB of the page's first part.
 #[cfg(feature = "captures")]
-trait Captured: std::fmt::Debug {
+trait Captured: std::fmt::Debug + Send {
     fn push(&mut self, part: &[u8], sink: &mut dyn FnMut(Segment<'_>)) -> Result<(), Fault>;
     fn finish(&mut self, sink: &mut dyn FnMut(Segment<'_>)) -> Result<(), Fault>;
     fn capture(&self) -> &Capture;
