@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 
 use buslens::field::hex;
 use buslens::tool::Options;
-use buslens::tool::log::{BEGINNING, Filter, Input, Log, Reading, Source, Wanted, join};
+use buslens::tool::log::{BEGINNING, Division, Filter, Input, Log, Reading, Source, Wanted, join};
 
 #[path = "../tests/logs/generator.rs"]
 #[allow(dead_code, reason = "the tests use the rest")]
@@ -156,7 +156,7 @@ fn read_slices(file: &Repeated, input: Input, most: usize) -> Log {
     let reading = Reading { input, ..Reading::default() };
     let open = || {
         let log = Log::open(&file.read(0, BEGINNING), file.size, &reading, Options::default());
-        log.expect("a log")
+        log.expect("a log").divided(Division::default())
     };
     let push = |log: &mut Log, from: u64, to: u64| {
         for at in (from..to).step_by(PIECE as usize) {

@@ -32,7 +32,7 @@ impl Source for Counted<'_> {
 fn open(file: &[u8], size: u64, reading: &Reading, division: Division) -> Log {
     let beginning = &file[..file.len().min(BEGINNING)];
     let log = Log::open(beginning, size, reading, Options::default()).expect("a log");
-    log.divided(Some(division))
+    log.divided(division)
 }
 
 /// All that there is to tell of a telegram.

@@ -10,6 +10,7 @@ use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
 use super::collect::{Latest, Traffic};
+use super::entries::Shift;
 use super::entry::{Entry, NO_TIME, NOBODY, Written};
 use super::judge::{Known, Shapes};
 use super::lane::{Carries, Lane, Row};
@@ -177,47 +178,29 @@ impl Traffic {
         here.state == there.state && (here.days == there.days || !(self.dated || other.dated))
     }
 
-    /// Takes over what `other` settled between two places, or from the first one on. There it was as this one is
-    /// `here`, which is the end of what this one has: what it still had in hand, the other one has.
-    pub fn adopt(&mut self, here: &Place, other: &Self, from: &Place, to: Option<&Place>) {
-        const AT_ONCE: usize = 4096;
+    /// Takes over what `other` settled from the place `from` on, up to `to`, where it ends, or to the end of the log.
+    /// At `from` it was as this one is `here`, which is the end of what this one has: what it still had in hand, the
+    /// other one has.
+    pub fn adopt(&mut self, here: &Place, other: &mut Self, from: &Place, to: Option<&Place>) {
         let base = here.telegrams;
         debug_assert_eq!(base, self.settled.len(), "it has more than it had at the mark");
-        let telegrams = to.map_or(other.settled.len(), |to| to.telegrams);
         let moved = |index: u32| index.wrapping_sub(from.telegrams as u32).wrapping_add(base as u32);
-        // Those in hand at the mark stand in lines before it.
-        let moved_line = |line: u32| line.wrapping_sub(from.line).wrapping_add(here.line);
-        let days = here.days - from.days;
-        let translated = |entry: Entry| Entry {
-            time: if entry.time == NO_TIME { NO_TIME } else { entry.time + days },
-            line: if entry.line == 0 { 0 } else { moved_line(entry.line) },
-            partner: if entry.partner == NOBODY { NOBODY } else { moved(entry.partner) },
-            ..entry
-        };
+        let shift = Shift { lines: here.line.wrapping_sub(from.line), days: here.days - from.days };
         // What those behind the place told of those before it.
         for distance in &from.open {
             let (own, others) = (base - distance, from.telegrams - distance);
             if let (Some(own_entry), Some(entry)) = (self.settled.get(own), other.settled.get(others)) {
-                let Entry { partner, direction, role, sides, .. } = translated(entry);
+                let Entry { partner, direction, role, sides, .. } = entry;
+                let partner = if partner == NOBODY { NOBODY } else { moved(partner) };
                 self.settled.set(own, &Entry { partner, direction, role, sides, ..own_entry });
             }
         }
-        let mut block: Vec<Entry> = Vec::with_capacity(AT_ONCE);
-        let mut data = Vec::new();
-        for entry in other.settled.from(from.telegrams).take(telegrams - from.telegrams) {
-            let at = data.len() as u64;
-            data.extend_from_slice(other.settled.kept(&entry).unwrap_or_default());
-            block.push(Entry { at, ..translated(entry) });
-            if block.len() == AT_ONCE {
-                self.settled.extend(&block, &data);
-                block.clear();
-                data.clear();
-            }
-        }
-        self.settled.extend(&block, &data);
+        let settled = std::mem::take(&mut other.settled);
+        debug_assert_eq!(settled.len(), to.map_or(settled.len(), |to| to.telegrams), "it ends there");
+        self.settled.join(settled, from.telegrams, shift);
         let lines = to.map_or(other.lines.len(), |to| to.lines) - from.lines;
         for (line, offset) in other.lines.iter().skip(from.lines).take(lines) {
-            self.lines.push((moved_line(line), offset));
+            self.lines.push((line.wrapping_add(shift.lines), offset));
         }
         let pauses = to.map_or(other.pauses.len(), |to| to.pauses);
         self.pauses

@@ -10,13 +10,49 @@ use crate::field::Direction;
 use crate::frame::Verdict;
 
 /// The telegrams of a log.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Entries {
-    rows: Packed<COLUMNS>,
-    kept: Kept,
+    /// One, and one for each reader whose telegrams were [joined](Self::join).
+    parts: Vec<Part>,
     /// The last time that was told.
     time: i64,
     counts: Counts,
+}
+
+/// Telegrams as one reader packed them.
+#[derive(Debug, Default)]
+struct Part {
+    rows: Packed<COLUMNS>,
+    kept: Kept,
+    /// So many of its first ones do not count.
+    left_out: usize,
+    /// The index of the next one among all.
+    first: usize,
+    shift: Shift,
+}
+
+/// How the lines and the days of one reader differ from those of all.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Shift {
+    pub lines: u32,
+    /// Microseconds.
+    pub days: i64,
+}
+
+impl Part {
+    fn len(&self) -> usize {
+        self.rows.len() - self.left_out
+    }
+
+    fn row(&self, index: usize) -> Option<[u64; COLUMNS]> {
+        self.rows.get(index - self.first + self.left_out)
+    }
+}
+
+impl Default for Entries {
+    fn default() -> Self {
+        Self { parts: vec![Part::default()], time: 0, counts: Counts::default() }
+    }
 }
 
 /// Time, offset, line, bytes of others before it in that, distance to its partner, port, kind, place among the
@@ -28,7 +64,7 @@ const AT: usize = 7;
 
 impl Entries {
     pub fn len(&self) -> usize {
-        self.rows.len()
+        self.parts.last().map_or(0, |last| last.first + last.len())
     }
 
     pub fn is_empty(&self) -> bool {
@@ -36,33 +72,78 @@ impl Entries {
     }
 
     pub fn get(&self, index: usize) -> Option<Entry> {
-        Some(unpack(index, self.rows.get(index)?))
+        let number = self.part_of(index);
+        let part = &self.parts[number];
+        Some(part.entry(number, index, part.row(index)?))
     }
 
     /// The time of an entry, if it has one.
     pub fn time(&self, index: usize) -> Option<i64> {
-        let [time, kind] = self.rows.numbers(index, [TIME, KIND])?;
-        (kind >> TIMED & 1 == 1).then_some(time as i64)
+        let part = &self.parts[self.part_of(index)];
+        let [time, kind] = part.rows.numbers(index - part.first + part.left_out, [TIME, KIND])?;
+        (kind >> TIMED & 1 == 1).then_some(time as i64 + part.shift.days)
+    }
+
+    /// The number of the part that an entry is in.
+    #[inline]
+    fn part_of(&self, index: usize) -> usize {
+        match self.parts.len() {
+            1 => 0,
+            _ => self.parts.partition_point(|part| part.first <= index) - 1,
+        }
     }
 
     /// All of them in their order. That is quicker than one by one.
     pub fn iter(&self) -> Iter<'_> {
-        Iter { rows: self.rows.iter(), index: 0 }
+        self.iter_from(0)
     }
 
-    /// Those from `index` on, of which there is at least that.
-    pub(super) fn from(&self, index: usize) -> Iter<'_> {
-        Iter { rows: self.rows.from(index), index }
+    fn iter_from(&self, index: usize) -> Iter<'_> {
+        let part = self.part_of(index);
+        let Part { rows, first, left_out, .. } = &self.parts[part];
+        Iter { entries: self, part, rows: rows.from(index - first + left_out), index }
     }
 
     /// The bytes of an entry, if they are kept.
     pub fn kept(&self, entry: &Entry) -> Option<&[u8]> {
-        entry.written.is_none().then(|| self.kept.get(entry.at, usize::from(entry.length)))
+        let part = self.parts.get((entry.at >> PART) as usize)?;
+        let at = entry.at & ((1 << PART) - 1);
+        entry.written.is_none().then(|| part.kept.get(at, usize::from(entry.length)))
     }
 
     /// How many bytes of memory they take.
     pub fn memory(&self) -> usize {
-        self.rows.memory() + self.kept.blocks.iter().map(Vec::capacity).sum::<usize>()
+        let kept = |part: &Part| part.kept.blocks.iter().map(Vec::capacity).sum::<usize>();
+        self.parts.iter().map(|part| part.rows.memory() + kept(part)).sum()
+    }
+
+    /// Takes what another reader found behind its first `left_out` ones, whose lines and days differ from those here.
+    pub(super) fn join(&mut self, mut other: Self, left_out: usize, shift: Shift) {
+        let mut counts = std::mem::take(&mut other.counts);
+        other.iter().take(left_out).for_each(|entry| counts.remove(&entry));
+        if counts.has_times() {
+            let told = other.iter_from(left_out).filter(|entry| entry.role != Role::Discarded);
+            let times = told.filter_map(|entry| Some(entry.time()? + shift.days));
+            let span = times.fold(None, |span: Option<(i64, i64)>, time| {
+                let (first, last) = span.unwrap_or((time, time));
+                Some((first.min(time), last.max(time)))
+            });
+            counts.set_times(span);
+        }
+        self.counts.join(&counts);
+        let mut before = left_out;
+        for part in other.parts {
+            let left_out = part.left_out + before.min(part.len());
+            before -= left_out - part.left_out;
+            let shift = Shift {
+                lines: shift.lines.wrapping_add(part.shift.lines),
+                days: shift.days + part.shift.days,
+            };
+            let part = Part { left_out, first: self.len(), shift, ..part };
+            if part.len() > 0 {
+                self.parts.push(part);
+            }
+        }
     }
 
     pub(super) fn counts(&self) -> &Counts {
@@ -71,21 +152,30 @@ impl Entries {
 
     /// Adds telegrams, whose bytes lie in `data`.
     pub(super) fn extend(&mut self, mut block: &[Entry], data: &[u8]) {
+        if block.is_empty() {
+            return;
+        }
+        if self.parts.len() > 1 {
+            // Those that were joined are as they are.
+            self.parts.push(Part { first: self.len(), ..Part::default() });
+        }
+        let Self { parts, time, counts } = self;
+        let Some(part) = parts.last_mut() else { return };
         while let Some(first) = block.first() {
             let (run, rest) = block.split_at(run(block));
             let at = match first.written {
-                Some(_) => self.kept.end(),
-                None => self.kept.push(all_bytes(run, data)),
+                Some(_) => part.kept.end(),
+                None => part.kept.push(all_bytes(run, data)),
             };
             for entry in run {
-                self.counts.add(entry);
+                counts.add(entry);
                 // Where no time is told, the one before needs no room.
                 if entry.time != NO_TIME {
-                    self.time = entry.time;
+                    *time = entry.time;
                 }
                 let behind = if first.written.is_some() { 0 } else { entry.at - first.at };
-                let index = self.rows.len();
-                pack(self.rows.next(), index, entry, at + behind, self.time);
+                let index = part.first + part.rows.len();
+                pack(part.rows.next(), index, entry, at + behind, *time);
             }
             block = rest;
         }
@@ -93,11 +183,36 @@ impl Entries {
 
     /// Another partner, or who speaks, turned out to be another. Its bytes stay where they are.
     pub(super) fn set(&mut self, index: usize, entry: &Entry) {
-        if let Some(before) = self.rows.get(index) {
-            let mut row = before;
-            pack(&mut row, index, entry, before[AT], before[TIME] as i64);
-            self.rows.set(index, row);
-            self.counts.replace(&unpack(index, before), entry);
+        let number = self.part_of(index);
+        let part = &mut self.parts[number];
+        if let Some(row) = part.row(index) {
+            let before = part.entry(number, index, row);
+            let line = entry.line.wrapping_sub(part.shift.lines);
+            let own = Entry { line: if entry.line == 0 { 0 } else { line }, ..*entry };
+            let mut packed = row;
+            pack(&mut packed, index, &own, row[AT], row[TIME] as i64);
+            part.rows.set(index - part.first + part.left_out, packed);
+            self.counts.replace(&before, entry);
+        }
+    }
+}
+
+/// An entry's place among the bytes that are kept has so many bits below the number of its part.
+const PART: u32 = 48;
+
+impl Part {
+    /// The entry in a row; this is part `number`.
+    #[inline]
+    fn entry(&self, number: usize, index: usize, row: [u64; COLUMNS]) -> Entry {
+        let entry = unpack(index, row);
+        if number == 0 {
+            return entry;
+        }
+        Entry {
+            time: if entry.time == NO_TIME { NO_TIME } else { entry.time + self.shift.days },
+            line: if entry.line == 0 { 0 } else { entry.line.wrapping_add(self.shift.lines) },
+            at: entry.at | (number as u64) << PART,
+            ..entry
         }
     }
 }
@@ -120,6 +235,9 @@ impl<'a> IntoIterator for &'a Entries {
 /// The telegrams of [`Entries`].
 #[derive(Clone)]
 pub struct Iter<'a> {
+    entries: &'a Entries,
+    /// The number of the part at hand, and what comes of it.
+    part: usize,
     rows: Rows<'a, COLUMNS>,
     index: usize,
 }
@@ -129,13 +247,29 @@ impl Iterator for Iter<'_> {
 
     #[inline]
     fn next(&mut self) -> Option<Entry> {
-        let entry = unpack(self.index, self.rows.next()?);
+        let row = match self.rows.next() {
+            Some(row) => row,
+            None => self.next_part()?,
+        };
+        let entry = self.entries.parts[self.part].entry(self.part, self.index, row);
         self.index += 1;
         Some(entry)
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
-        self.rows.size_hint()
+        let left = self.entries.len() - self.index;
+        (left, Some(left))
+    }
+}
+
+impl Iter<'_> {
+    /// The first row of the next part, of which each has some but the first.
+    #[cold]
+    fn next_part(&mut self) -> Option<[u64; COLUMNS]> {
+        let part = self.entries.parts.get(self.part + 1)?;
+        self.part += 1;
+        self.rows = part.rows.from(part.left_out);
+        self.rows.next()
     }
 }
 

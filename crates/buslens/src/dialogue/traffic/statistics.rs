@@ -107,6 +107,51 @@ impl Counts {
         self.count::<1>(entry);
     }
 
+    /// What was added is not counted.
+    pub fn remove(&mut self, entry: &Entry) {
+        self.count::<-1>(entry);
+    }
+
+    pub fn has_times(&self) -> bool {
+        self.times.is_some()
+    }
+
+    /// The first and the last time are these.
+    pub fn set_times(&mut self, times: Option<(i64, i64)>) {
+        self.times = times;
+    }
+
+    /// Takes what was counted beside it.
+    pub fn join(&mut self, other: &Self) {
+        for (own, other) in self.roles.iter_mut().zip(other.roles) {
+            *own += other;
+        }
+        for (own, other) in self.verdicts.iter_mut().zip(other.verdicts) {
+            *own += other;
+        }
+        self.bytes_discarded += other.bytes_discarded;
+        let both = self.times.zip(other.times).map(|(own, other)| (own.0.min(other.0), own.1.max(other.1)));
+        self.times = both.or(self.times).or(other.times);
+        for Tally { port, unit, function, counts } in &other.tallies {
+            if counts.iter().all(|count| *count == 0) {
+                continue;
+            }
+            let place = self.places.all.len();
+            let place = *self.places.all.entry(key(*port, *unit, *function)).or_insert(place);
+            if place == self.tallies.len() {
+                self.tallies.push(Tally {
+                    port: *port,
+                    unit: *unit,
+                    function: *function,
+                    counts: [0; CLASSES],
+                });
+            }
+            for (own, other) in self.tallies[place].counts.iter_mut().zip(counts) {
+                *own += other;
+            }
+        }
+    }
+
     /// What was added as `before` is `entry` now.
     pub fn replace(&mut self, before: &Entry, entry: &Entry) {
         self.count::<-1>(before);
@@ -118,7 +163,8 @@ impl Counts {
         let role = &mut self.roles[entry.role as usize];
         *role = role.wrapping_add_signed(BY);
         if entry.role == Role::Discarded {
-            self.bytes_discarded += usize::from(entry.length);
+            let bytes = BY * entry.length as isize;
+            self.bytes_discarded = self.bytes_discarded.wrapping_add_signed(bytes);
             return;
         }
         if let Some(time) = entry.time() {
@@ -184,11 +230,11 @@ impl Dialog {
 }
 
 /// Port, unit and function in one number.
-fn key(entry: &Entry) -> u64 {
-    u64::from(entry.port) << 24
-        | u64::from(entry.unit.is_some()) << 16
-        | u64::from(entry.unit.unwrap_or_default()) << 8
-        | u64::from(entry.function)
+fn key(port: u16, unit: Option<u8>, function: u8) -> u64 {
+    u64::from(port) << 24
+        | u64::from(unit.is_some()) << 16
+        | u64::from(unit.unwrap_or_default()) << 8
+        | u64::from(function)
 }
 
 /// The places of tallies, in the order in which they are met.
@@ -204,7 +250,7 @@ impl Places {
 
     #[inline]
     fn of(&mut self, entry: &Entry) -> usize {
-        let key = key(entry);
+        let key = key(entry.port, entry.unit, entry.function);
         let shelf = (key ^ key >> 8 ^ key << 4) as usize % Self::SHELVES;
         match self.recent.get(shelf) {
             Some((recent, place)) if *recent == key && *place != usize::MAX => *place,

@@ -126,7 +126,7 @@ pub struct Log {
     full: bool,
     /// All of it was read.
     finished: bool,
-    /// Of a large file.
+    /// Of a log that can be read in slices.
     passed: Option<Passed>,
     /// A file in UTF-16, as it would be in UTF-8.
     transcoded: Option<Vec<u8>>,
@@ -292,7 +292,7 @@ impl Log {
             Format::Capture { .. } => captures.ok_or(Refusal::NoCaptures)?(),
         };
         let transcoded = matches!(input, Way::Utf16 { .. }).then(Vec::new);
-        let log = Self {
+        Ok(Self {
             options,
             format,
             form,
@@ -311,8 +311,7 @@ impl Log {
             some_slow: false,
             sums: OnceCell::new(),
             teaching: OnceCell::new(),
-        };
-        Ok(log.divided(Division::of(size)))
+        })
     }
 
     /// Reads a whole file that is in memory.
@@ -340,7 +339,9 @@ impl Log {
             if !self.take_part(before) {
                 return false;
             }
-            self.pass_mark();
+            if let Some(pass) = self.passed.as_ref().map(Passed::mark) {
+                pass(self);
+            }
             part = behind;
         }
         self.take_part(part)

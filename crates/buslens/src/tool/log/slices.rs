@@ -10,7 +10,7 @@
 use std::hash::{DefaultHasher, Hash};
 use std::ops::Range;
 
-use super::{Log, SMALL, Source, Way};
+use super::{Log, Source, Way};
 use crate::dialogue::traffic::Place;
 
 /// Where a log has its marks.
@@ -22,10 +22,10 @@ pub struct Division {
     pub step: u64,
 }
 
-impl Division {
-    /// Of a file of so many bytes: small ones have none.
-    pub fn of(size: u64) -> Option<Self> {
-        (size > SMALL).then_some(Self { beginning: 8 << 20, step: 1 << 20 })
+impl Default for Division {
+    /// As large files need it.
+    fn default() -> Self {
+        Self { beginning: 8 << 20, step: 1 << 20 }
     }
 }
 
@@ -33,6 +33,8 @@ impl Division {
 #[derive(Debug)]
 pub(super) struct Passed {
     division: Division,
+    /// What is done at each. It stands behind a pointer so that a program that reads no slices does without it.
+    mark: fn(&mut Log),
     /// Where the beginning ended.
     settled: Option<u64>,
     /// Each with its place in the file.
@@ -41,7 +43,11 @@ pub(super) struct Passed {
 
 impl Passed {
     pub fn new(division: Division) -> Self {
-        Self { division, settled: None, places: Vec::new() }
+        Self { division, mark: Log::pass_mark, settled: None, places: Vec::new() }
+    }
+
+    pub fn mark(&self) -> fn(&mut Log) {
+        self.mark
     }
 
     /// The next mark behind so many bytes.
@@ -57,11 +63,11 @@ impl Passed {
 }
 
 impl Log {
-    /// The same with marks elsewhere, or none. Two logs with the same marks are the same, in however many slices
-    /// they are read; nothing may be pushed before.
-    pub fn divided(mut self, division: Option<Division>) -> Self {
+    /// The same with marks, if what it reads can have some: texts in UTF-16 and captures have none. Logs with the same
+    /// marks are the same, in however many slices they are read; nothing may be pushed before.
+    pub fn divided(mut self, division: Division) -> Self {
         let divisible = matches!(self.input, Way::Text(_) | Way::Stream);
-        self.passed = division.filter(|_| divisible).map(Passed::new);
+        self.passed = divisible.then(|| Passed::new(division));
         self
     }
 
@@ -72,7 +78,7 @@ impl Log {
     }
 
     /// The file passes a mark.
-    pub(super) fn pass_mark(&mut self) {
+    fn pass_mark(&mut self) {
         let Self { passed: Some(passed), traffic, input, ports, .. } = self else { return };
         let line = if let Way::Text(reader) = input { reader.lines() } else { 0 };
         if passed.settled.is_none() {
@@ -180,20 +186,20 @@ struct Joined {
 
 impl Joined {
     /// Gives what it has to the whole; returns where that ends.
-    fn hand_over(self, whole: &mut Log) -> Place {
+    fn hand_over(mut self, whole: &mut Log) -> Place {
         let to = self.log.latest_place();
-        whole.traffic.adopt(&self.here, &self.log.traffic, &self.from, Some(&to));
+        whole.traffic.adopt(&self.here, &mut self.log.traffic, &self.from, Some(&to));
         whole.take_over(&self.log);
         self.here.moved(&self.from, &to)
     }
 
     /// The same at the end of the file.
-    fn finish(self, whole: &mut Log) {
+    fn finish(mut self, whole: &mut Log) {
         let lines = match &self.log.input {
             Way::Text(reader) => self.here.lines_behind(&self.from, reader.lines()),
             _ => 0,
         };
-        whole.traffic.adopt(&self.here, &self.log.traffic, &self.from, None);
+        whole.traffic.adopt(&self.here, &mut self.log.traffic, &self.from, None);
         whole.take_over(&self.log);
         whole.go_on_at(self.log.taken, lines);
         whole.finish();
