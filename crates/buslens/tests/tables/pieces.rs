@@ -347,7 +347,7 @@ fn long_texts() {
         ("600 lines of a column", rows(600, "x 5A")),
         ("601 lines of a column", rows(601, "x 5A")),
         ("605 lines of a column", rows(605, "x 5A")),
-        ("8 numbers in a row", rows(5, "a 1 b 2 c 3 d 4 e 5 f 6 g 7 h 8")),
+        ("8 numbers in a row", rows(5, "q 1 r 2 s 3 t 4 u 5 v 6 w 7 x 8")),
         ("9 numbers in a row", rows(5, "q 1 r 2 s 3 t 4 u 5 v 6 w 7 x 8 y 9")),
         (
             "70 numbers in a line, the last tells the length",
