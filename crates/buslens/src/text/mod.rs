@@ -664,7 +664,7 @@ fn pairs(line: &[u8], bytes: &[u8], places: &[Span]) -> Option<(usize, u8)> {
 pub fn pair(text: &[u8], at: usize) -> Option<u8> {
     let [high, low] = *text.get(at..)?.first_chunk()?;
     let digit = |c: u8| (c as char).to_digit(16);
-    Some((digit(high)? << 4 | digit(low)?) as u8)
+    Some((digit(high)? * 16 + digit(low)?) as u8)
 }
 
 /// Whether a colon or the like stands before a run.

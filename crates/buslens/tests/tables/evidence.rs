@@ -204,6 +204,11 @@ fn what_bytes_could_be() {
         ("counted", facts(|it| it.counted = true)),
         ("left over", facts(|it| it.of_leftovers = true)),
         ("listed", facts(|it| it.listed = true)),
+        ("words", facts(|it| it.words = true)),
+        ("an array", facts(|it| (it.array, it.marked, it.wrapped) = (true, true, true))),
+        ("an array, said", facts(|it| (it.array, it.said) = (true, true))),
+        ("an array of telegrams", facts(|it| (it.array, it.of_telegrams) = (true, true))),
+        ("an array of words", facts(|it| (it.array, it.words) = (true, true))),
     ];
     for (fact, bits) in places {
         writeln!(table, "{fact}: {bits}").unwrap();

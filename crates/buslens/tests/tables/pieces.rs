@@ -223,6 +223,7 @@ fn beginnings() {
     for count in [3, 7, 8, 16, 17] {
         texts.push(lines(&|n| format!("TX 01 03 00 C8 00 {n:02X} 84 35"), count));
         texts.push(lines(&|n| format!("TX 1 3 0 200 0 {n} 132 53"), count));
+        texts.push(lines(&|n| format!("TX 01 03 00 20 00 {n:02}"), count));
         texts.push(lines(&|n| format!("{n}.5,0x{n:02X},"), count));
         texts.push(lines(&|n| format!("{:02} 01 03 00 C8 00{}", 5 + n, " 03".repeat(n)), count));
         texts.push(lines(&|n| format!("{} 1 3 0 200 0{}", 5 + n, " 3".repeat(n)), count));

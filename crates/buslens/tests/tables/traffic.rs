@@ -190,6 +190,20 @@ fn streams_and_connections() {
             (0..100).map(|n| format!("{n}: 06 04 02 00 40 0D / {}: 00", n as f64 + other)).collect();
         told(&mut table, Way::Flow, "modbus-rtu", &alone.join(" / "));
     }
+    // Byte by byte; more is there when the first bytes are told apart.
+    let one_by_one = |text: &str| {
+        let chunk = |(n, byte)| format!("{}: {byte}", n as f64 / 1000.0);
+        text.split(' ').enumerate().map(chunk).collect::<Vec<_>>().join(" / ")
+    };
+    let exchanges = " 08 03 02 8D 00 01 15 00 08 03 02 00 00 64 45".repeat(40);
+    for before in [9, 10, 11] {
+        told(
+            &mut table,
+            Way::Flow,
+            "modbus-rtu",
+            &one_by_one(&format!("{}{exchanges}", vec!["55"; before].join(" "))),
+        );
+    }
     for (way, protocol, cases) in [
         (
             Way::Stream,
@@ -270,6 +284,10 @@ fn streams_and_connections() {
                 "01 03 00 C8 00 03 00x1018",
                 "01 03 00 C8 00 03 00x1019",
                 "55x1100 ASKS / 01 03 00 C8 00 03",
+                "> 0: ASKS / < 0.01: ASKS / < 0.02: ANSWERS / > 1: ASKS / < 1.01: ASKS / < 1.02: ANSWERS / > 2: 01 05 00 C8 FF 00 0D C4 / \
+                 < 2.01: 01 05 00 C8 FF 00 0D C4 / < 2.02: 01 05 00 C8 FF 00 0D C4",
+                "> 0: ASKS / < 0.01: ANSWERS / > 1: 01 03 02 00 05 84 35 / < 2: 01 03 00 C8 00 03 84 36",
+                "86399.9: ASKS / 0.1: ANSWERS / 86399.9: ASKS / 0.1: ANSWERS",
                 "> 0: ASKS / > 1: 01 05 00 C8 FF 00 0D C4",
                 "< 0: ASKS / < 1: 01 05 00 C8 FF 00 0D C4",
                 "> 0: ANSWERS / > 1: 01 05 00 C8 FF 00 0D C4 / < 2: 01 05 00 C8 FF 00 0D C4",
@@ -324,6 +342,13 @@ fn streams_and_connections() {
                 "0: 06 04 02 07 00 01 / 0.1: 81 B7 / 0.2: 06 04 02 00 40 0D 00",
                 "0: 06 04 22 07 00 01 8B C4 / 0.1: 06 04 02 00 40 0D 00",
                 "0: 06 04 02 00 40 0D / 0.5: 00",
+                "> 0: 01 03 00 C8 / > 1: 00 03 84 35",
+                "> 0: 01 03 00 C8 / > 1.00001: 00 03 84 35",
+                "0: 08 03 02 8D 00 01 15 / 0.5: 00 08 03 02 00 00 64 45",
+                "0: 08 03 02 8D 00 01 15 / 0.5: 00 55 55 08 03 02 00 00 64 45",
+                "0: 08 03 02 8D 00 01 15 / 0.5: 00 55 55 55 08 03 02 00 00 64 45",
+                "0: 08 03 02 8D 00 01 15 / 0.5: 00 09 03 02 00 00 58 45",
+                "0: 08 03 02 8D 00 01 15 / 0.5: 00 08 03 02 00 00 64 46",
                 "0: 55 06 04 22 07 00 01 8B C4 / 0.1: 06 04 02 00 40 0D 00",
             ],
         ),

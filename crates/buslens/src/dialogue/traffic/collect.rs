@@ -483,8 +483,8 @@ impl Traffic {
             _ => (row.offset, skip.clamp(0, isize::from(i16::MAX)) as u16),
         };
         let (hint, sides) = match self.direction {
-            Some(direction) if role == Role::Plain => (Hint::Says(direction), sides_of(direction)),
-            _ => (row.hint, said.sides),
+            Some(direction) => (Hint::Says(direction), sides_of(direction)),
+            None => (row.hint, said.sides),
         };
         self.entries.push(Entry {
             time: row.time,

@@ -170,7 +170,7 @@ impl Head {
     }
 
     fn words(self) -> [u64; HEAD] {
-        [self.base, u64::from(self.width) | (self.listed as u64) << 8 | (self.from as u64) << 32]
+        [self.base, u64::from(self.width) + ((self.listed as u64) << 8) + ((self.from as u64) << 32)]
     }
 
     /// The number in row `row` of its column.
@@ -183,10 +183,10 @@ impl Head {
                 let (word, shift) = (self.from + self.listed + first / 64, first % 64);
                 let low = chunk[word] >> shift;
                 let high = if shift + width as usize > 64 { chunk[word + 1] << (64 - shift) } else { 0 };
-                (low | high) & mask(width)
+                (low + high) & mask(width)
             }
         };
-        if self.listed > 0 { chunk[self.from + bits as usize] } else { self.base | bits }
+        if self.listed > 0 { chunk[self.from + bits as usize] } else { self.base + bits }
     }
 }
 
@@ -306,7 +306,8 @@ impl List {
         self.slots.clear();
         self.slots.resize(Self::SLOTS, 0);
         for number in numbers {
-            let mut slot = (number.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 56) as usize;
+            let [slot, ..] = number.wrapping_mul(0x9E37_79B9_7F4A_7C15).to_be_bytes();
+            let mut slot = usize::from(slot);
             let place = loop {
                 match self.slots[slot].checked_sub(1) {
                     Some(place) if self.numbers[usize::from(place)] == number => break place,

@@ -129,9 +129,7 @@ impl Traffic {
                         () => length,
                     };
                     let kept = *kept.get_or_insert_with(|| keep(&mut self.data, bytes));
-                    if garbage < at {
-                        self.unframed(index, &bytes[garbage..at], from + garbage, kept + garbage);
-                    }
+                    self.unframed(index, &bytes[garbage..at], from + garbage, kept + garbage);
                     let telegram = &bytes[at..at + length];
                     let verdict = if main.is(&modbus_rtu::PROTOCOL) {
                         Verdict::Right

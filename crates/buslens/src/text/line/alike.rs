@@ -231,7 +231,7 @@ impl Pattern {
             let [high, low] = [DIGITS[usize::from(at[0])], DIGITS[usize::from(at[1])]];
             all |= high | low;
             padded |= high == 0;
-            high << 4 | low
+            high.wrapping_mul(16).wrapping_add(low)
         };
         let (others, last) = own.split_at(own.len() - 2);
         match (gap.first(), gap.last()) {
@@ -278,7 +278,7 @@ impl Pattern {
         let Scan { hex, places, .. } = scan;
         for at in &self.numbers {
             let digits = places[*at].of(line);
-            hex[*at] = DIGITS[usize::from(digits[0])] << 4 | DIGITS[usize::from(digits[1])];
+            hex[*at] = DIGITS[usize::from(digits[0])] * 16 + DIGITS[usize::from(digits[1])];
         }
         scan.time = time;
         scan.pairs = u8::try_from(step).ok().map(|step| (from + mark.len(), step));
