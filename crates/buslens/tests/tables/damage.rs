@@ -27,6 +27,8 @@ fn causes_of_damage() {
         ("modbus-rtu", "01 03 00 C8 00 08 34 35"),
         ("modbus-rtu", "01 10 00 C8 00 03 84 35"),
         ("modbus-rtu", "01 03 00 C8 00 03 12 34"),
+        ("modbus-rtu", "01 03 00 C8 01 7E 80"),
+        ("modbus-rtu", "01 03 00 C8 01 07 41 E2"),
         ("modbus-rtu", "01 03 00 C8 00 03"),
         ("modbus-rtu", "01 03 00 C8 00 02 84 35"),
         ("modbus-rtu", "01 03 00 8C 00 03 84 35"),

@@ -287,6 +287,11 @@ fn streams_and_connections() {
                 "> 0: ASKS / < 0.01: ASKS / < 0.02: ANSWERS / > 1: ASKS / < 1.01: ASKS / < 1.02: ANSWERS / > 2: 01 05 00 C8 FF 00 0D C4 / \
                  < 2.01: 01 05 00 C8 FF 00 0D C4 / < 2.02: 01 05 00 C8 FF 00 0D C4",
                 "> 0: ASKS / < 0.01: ANSWERS / > 1: 01 03 02 00 05 84 35 / < 2: 01 03 00 C8 00 03 84 36",
+                "0: ASKS / 1: 01 03 04 00 08 00 00 12 34",
+                "0: ASKS / 1: 02 03 04 00 08 00 00 12 34",
+                "> 0: ASKS / < 0.1: ASKS / > 1: ASKS / < 1.1: ASKS / > 2: ASKS / < 2.1: ASKS / > 3: ASKS / > 10: ASKS",
+                "> 0: ASKS / < 0.1: ASKS / > 1: ASKS / < 1.1: ASKS / > 3: ANSWERS_2 / > 4: ASKS / < 5: ANSWERS / > 6: ASKS / < 7: ANSWERS / \
+                 > 8: ASKS",
                 "86399.9: ASKS / 0.1: ANSWERS / 86399.9: ASKS / 0.1: ANSWERS",
                 "> 0: ASKS / > 1: 01 05 00 C8 FF 00 0D C4",
                 "< 0: ASKS / < 1: 01 05 00 C8 FF 00 0D C4",

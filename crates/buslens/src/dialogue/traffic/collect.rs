@@ -239,7 +239,7 @@ impl Traffic {
         }
         lane.rows.push(row);
         lane.buffer.extend_from_slice(chunk.bytes);
-        let long = lane.buffer.len() > LONG;
+        let long = lane.buffer.len() > LONG && !row.facts.column;
         if (lane.streaming && !self.flowing) || (long && can_split(self.protocol)) {
             lane.streaming = true;
             self.drain_buffer(index, false);

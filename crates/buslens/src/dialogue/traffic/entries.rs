@@ -342,6 +342,9 @@ mod tests {
             assert_eq!(entries.kept(&found), (n % 3 > 0).then_some(&bytes(n)[..]));
             assert_eq!(entries.get(n as usize - 1), Some(found));
         }
+        assert_eq!(entries.iter().len(), 29_999);
+        let of_bytes: usize = (1..30_000).filter(|n| n % 3 > 0).map(|n| bytes(n).len()).sum();
+        assert!((of_bytes..of_bytes * 5 / 2).contains(&entries.memory()), "{of_bytes} {}", entries.memory());
     }
 
     #[test]

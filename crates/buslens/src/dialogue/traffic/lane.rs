@@ -94,8 +94,8 @@ impl Lane {
     /// The chunk that the byte at `at` of the buffer came in.
     #[inline]
     pub(super) fn row(&self, at: usize) -> &Row {
-        let of = self.rows.iter().rfind(|row| row.from <= at as isize);
-        of.or(self.rows.first()).unwrap_or(&NO_ROW)
+        let next = self.rows.partition_point(|row| row.from <= at as isize);
+        self.rows.get(next.saturating_sub(1)).unwrap_or(&NO_ROW)
     }
 
     /// The first `count` bytes are gone.
