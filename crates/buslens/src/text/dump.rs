@@ -91,7 +91,7 @@ impl Dump {
     /// Whether a line is the offset behind the last row, which od and hexdump write by itself.
     pub fn ends(&self, line: &[u8]) -> bool {
         let latest = self.streams.get(self.latest);
-        let Some(next) = latest.map(|stream| stream.next).filter(|next| *next > 0) else { return false };
+        let Some(next) = latest.map(|stream| stream.next) else { return false };
         let digits = line.trim_ascii();
         let text = std::str::from_utf8(digits).ok().filter(|_| (4..=16).contains(&digits.len()));
         text.is_some_and(|text| {

@@ -398,7 +398,7 @@ impl Scan {
             }
             shown.all(|byte| *byte == b' ')
         };
-        blank > 0 && text.len() <= blank + 3 * bytes.len() && (1..=blank).any(shows)
+        text.len() <= blank + 3 * bytes.len() && (1..=blank).any(shows)
     }
 }
 

@@ -329,8 +329,7 @@ impl Reader {
         // A digit that is left over is being typed.
         let runs = self.scan.runs.iter().filter(|run| run.span.len() > 1).count().max(1);
         let bare = self.scan.words == 0 && self.scan.time.is_none() && runs == 1;
-        let joined =
-            bare && self.header.as_ref().is_some_and(|header| header.row > 0 && header.row + 1 == self.line);
+        let joined = bare && self.header.as_ref().is_some_and(|header| header.row + 1 == self.line);
         // Rows below a header end where another line comes: what is said in it is said of them only.
         self.header.take_if(|header| header.row > 0 && !joined);
         let several = self.scan.runs.iter().any(|run| run.len() >= SHORTEST);
@@ -589,9 +588,6 @@ impl Reader {
     }
 
     fn end_columns(&mut self, sink: &mut dyn FnMut(Event<'_>)) {
-        if self.columns.is_empty() {
-            return;
-        }
         let sender = self.header.as_ref().and_then(|header| header.sender);
         let (line, offset, columns) = self.columns.end();
         for column in &columns {

@@ -99,7 +99,7 @@ fn group(line: &[u8], from: usize, to: usize) -> Option<(u64, usize)> {
 /// Digits behind a decimal point, in microseconds.
 fn fraction(line: &[u8], at: usize) -> Option<(i64, usize)> {
     let to = at + line.get(at..)?.iter().take_while(|c| is_digit(**c)).count();
-    (to > at && to - at <= 9).then(|| (millionths(&line[at..to]), to))
+    (to - at <= 9).then(|| (millionths(&line[at..to]), to))
 }
 
 /// The first six digits behind a decimal point.

@@ -62,6 +62,8 @@ fn told(table: &mut String, name: &str, text: &str) {
         )
         .unwrap();
     }
+    let each = log.memory() as f64 / (count + log.unread().len()) as f64;
+    assert!((1.0..30.0).contains(&each), "{name}: {each} bytes of memory for each line");
     let unread: Vec<u32> = log.unread().iter().map(|(line, _)| line).collect();
     if let [first, second, .., last] = unread[..] {
         writeln!(table, "    unread {first}, {second}, … {last}").unwrap();

@@ -48,6 +48,9 @@ fn shown(piece: &Piece<'_>, shape: usize) -> String {
     if let Some(port) = piece.port {
         write!(said, ", port {}", String::from_utf8_lossy(port)).unwrap();
     }
+    if let Some((from, step)) = piece.pairs {
+        write!(said, ", pairs from {from} by {step}").unwrap();
+    }
     if piece.joins {
         said += ", joins";
     }
@@ -161,6 +164,9 @@ fn forms_of_texts() {
         "9 01 03 00 C8 00 03 84 35",
         "4 01 03 00 C8",
         "3 01 03 00",
+        "03 01 03 00",
+        "04 01 03 00 C8",
+        "09 01 03 00 C8 00 03 84 35",
         "8, 1, 3, 0, 200, 0, 3, 132, 53",
         "tx 8 01 03 00 C8 00 03 84 35 rx 4 01 03 00 C8",
     ] {
@@ -243,6 +249,11 @@ fn beginnings() {
     texts.push(format!(
         "t\n{}{}",
         lines(&|_| "01 03 00 C8 x 0x05".to_owned(), 2),
+        lines(&|n| format!("{n}.5,0x{n:02X}"), 20)
+    ));
+    texts.push(format!(
+        "t\n{}{}",
+        lines(&|_| "01 03 x 0x05".to_owned(), 3),
         lines(&|n| format!("{n}.5,0x{n:02X}"), 20)
     ));
     texts.push(format!(
@@ -337,6 +348,7 @@ fn long_texts() {
     let bytes = |count: usize, parted: &str| vec!["5A"; count].join(parted);
     for (name, text) in [
         ("a line of 65,536 characters", "x".repeat(1 << 16)),
+        ("a blank and 70,000 characters", " ".to_owned() + &"x".repeat(70_000)),
         ("65,537 characters and bytes", "x".repeat((1 << 16) + 1) + " 01 03 00 C8 00 03"),
         ("30,000 bytes in a line", bytes(30_000, " ")),
         ("30,000 bytes in a line with a time", format!("10:00:00 tx: {}", bytes(30_000, " "))),

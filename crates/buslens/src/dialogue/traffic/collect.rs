@@ -353,10 +353,9 @@ impl Traffic {
         &self.pauses
     }
 
-    /// How many bytes of memory it takes.
+    /// How many bytes of memory it takes, as far as it is settled.
     pub fn memory(&self) -> usize {
-        let in_hand = self.data.capacity() + self.entries.capacity() * size_of::<Entry>();
-        self.settled.memory() + self.lines.memory() + in_hand
+        self.settled.memory() + self.lines.memory()
     }
 
     /// How many pieces of a text are telegrams of each of the [`FOREIGN`](crate::dialogue::foreign::FOREIGN).

@@ -246,7 +246,7 @@ impl Traffic {
         found.clear();
         let waiting = self.waiting_at(index);
         let mut at = 0;
-        while at < bytes.len() {
+        loop {
             let waiting = waiting.filter(|_| at == 0);
             let waiting = waiting.as_ref();
             let place = Place { bytes: &bytes[at..], last: true, in_step: true, waiting };

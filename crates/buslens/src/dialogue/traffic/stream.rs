@@ -151,7 +151,7 @@ impl Traffic {
                 }
             }
         }
-        if last && garbage < at {
+        if last {
             let kept = *kept.get_or_insert_with(|| keep(&mut self.data, bytes));
             let rest = &bytes[garbage..at];
             match evidence::reading(rest, &self.splitter, self.waiting[port]) {

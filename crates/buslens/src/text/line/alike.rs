@@ -184,14 +184,13 @@ impl Pattern {
             head[time.from..time.to].iter_mut().filter(|c| is_digit(**c)).for_each(|c| *c = HOLE);
         }
         let mut at = 0;
-        // Where decimal numbers are asked for, short ones are some by their value.
-        while hex_only && at < before.len() {
-            let count = before[at..].iter().take_while(|c| is_digit(**c)).count();
-            let number = Span::new(at, at + count);
-            if is_free(before, number) {
-                head[at..at + count].fill(HOLE);
+        for part in before.chunk_by(|one, next| is_digit(*one) == is_digit(*next)) {
+            let number = Span::new(at, at + part.len());
+            // Where decimal numbers are asked for, short ones are some by their value.
+            if hex_only && is_digit(part[0]) && is_free(before, number) {
+                head[number.from..number.to].fill(HOLE);
             }
-            at += count.max(1);
+            at = number.to;
         }
         let numbers = (0..run.first).filter(|at| head[scan.places[*at].from] == HOLE).collect();
         let (mark, gap, tail) = (mark.to_vec(), gap.to_vec(), tail.to_vec());
@@ -371,6 +370,7 @@ mod tests {
                 "[09:30:05] rx: 01.03.00.C8.00 (5 bytes in 12 ms)",
                 "[09:30:06] rx: 81.00.1F.C8.00 (5 bytes in 12 ms)",
             ),
+            ("2026-03-02 01 03 00 C8 00", "2026-03-02 11 03 00 C8 00"),
             ("rx: 0x01 0x03 0x00 0xC8 0x00, len 5", "rx: 0x11 0x13 0x10 0xC8 0x00, len 5"),
         ] {
             assert!(is_like(first, second, Some(Numbers::Hex)), "{first}");
@@ -414,6 +414,7 @@ mod tests {
             ("x -01 03 00 C8 00", "x -16 03 00 C8 00"),
             ("x -12345 rx 01 03 00 C8 00", "x -67890 rx 01 03 00 C8 00"),
             (r"\x01 01 03 00 C8 00", r"\x02 01 03 00 C8 00"),
+            ("2026-03-02 01:03:00:C8:00", "2026-03-02 11:04:05:10:20"),
             ("192.168.1.2 rx 01 03 00 C8 00", "392.168.1.2 rx 01 03 00 C8 00"),
             // Other marks between the bytes of the first.
             ("TX 01 03,00 C8 00 03", "TX 01 03 00 C8 00 03"),

@@ -105,8 +105,9 @@ impl Scan {
             }
             from += 2 + count;
         }
-        match line[from..to].first() {
-            None | Some(b'u' | b'U' | b'l' | b'L' | b'i') if to - from <= 3 => {
+        match &line[from..to] {
+            [] => Token::Bytes(marked(Style::Prefixed)),
+            suffix @ [b'u' | b'U' | b'l' | b'L' | b'i', ..] if suffix.len() <= 3 => {
                 Token::Bytes(marked(Style::Prefixed))
             }
             _ => Token::Word,
