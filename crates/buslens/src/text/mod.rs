@@ -264,8 +264,7 @@ impl Reader {
             self.end_list(sink);
             return self.end_columns(sink);
         }
-        let whole = !self.long && quote == 0 && self.form.marks.is_none() && self.form.flow.is_none();
-        let alike = whole && self.alike.read(line, &mut self.scan);
+        let alike = !self.long && self.alike.read(line, &mut self.scan);
         let row = if self.long || alike { None } else { self.dump.row(line) };
         if row.is_none() && !alike && self.dump.ends(line) {
             return;
@@ -279,7 +278,7 @@ impl Reader {
             _ => {
                 let start = Start { from: begins.max(quote), in_row: begins > 0 };
                 self.scan.read(line, start, self.form.numbers);
-                if whole && row.is_none() {
+                if !self.long && row.is_none() {
                     self.alike.learn(line, &self.scan);
                 }
             }

@@ -173,9 +173,12 @@ fn forms_of_texts() {
         pieces(&mut table, text, &Form { counted: true, ..Form::default() });
     }
     writeln!(table, "# quoted").unwrap();
-    for text in
-        ["> 01 03 00 C8\n> > 00 03\n>\n> x\nno 01 03 00 C8", ">>> tx 01 03 00 C8", "> 0000: 01 03 00 C8"]
-    {
+    for text in [
+        "> 01 03 00 C8\n> > 00 03\n>\n> x\nno 01 03 00 C8",
+        ">>> tx 01 03 00 C8",
+        "> 0000: 01 03 00 C8",
+        "> tx 0x01 0x03 0x00 0xC8 0x00\n> tx 0x11 0x03 0x00 0xC9 0x00\n>> tx 0x11 0x03 0x00 0xC9 0x00",
+    ] {
         pieces(&mut table, text, &Form { quoted: true, ..Form::default() });
     }
     writeln!(table, "# one byte a line").unwrap();
@@ -209,6 +212,7 @@ fn forms_of_texts() {
             "#7;09:30:05.5;A;5;01 03 00 C8;note 1",
             "#8;09:30:06.5;B;55;05 03 00 C8;note 2\n#9;x;AB;1;05;",
             "nothing; here",
+            "#7;09:30:05.5;A;5;0x01 0x03 0x00 0xC8 0x00;note 1\n#8;09:30:06.5;B;5;0x11 0x03 0x00 0xC9 0x00;note 1",
             "#9;09:30:06.5;B;55;",
             "a;b;c;d;0x01, 0x03,\n1;2;3;4;00 C8",
         ] {

@@ -383,7 +383,7 @@ impl Traffic {
         let mut at = 0;
         let ends = found.iter().map(|(from, to, ..)| (*from, *to)).chain([(bytes.len(), bytes.len())]);
         for (from, to) in ends {
-            if at < from && said {
+            if said {
                 let rest = &bytes[at..from];
                 let cut = evidence::reading(rest, &self.splitter, self.waiting_at(index))
                     .filter(|it| it.cut && from == bytes.len());
