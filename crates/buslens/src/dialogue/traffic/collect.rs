@@ -231,7 +231,7 @@ impl Traffic {
             // The usual way of a stream: nothing of it is copied but what is left over.
             lane.rows.clear();
             lane.rows.push(row);
-            let used = self.split(index, chunk.bytes, 0, false);
+            let used = self.split(index, chunk.bytes, false);
             let lane = &mut self.lanes[index];
             lane.buffer.extend_from_slice(&chunk.bytes[used..]);
             lane.forget(used);
