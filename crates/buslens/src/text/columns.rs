@@ -121,8 +121,4 @@ impl Columns {
         columns.retain(|column| lines >= SHORTEST && column.bytes.len() >= SHORTEST);
         (self.line, self.offset, columns)
     }
-
-    pub fn is_empty(&self) -> bool {
-        self.lines == 0
-    }
 }

@@ -297,8 +297,7 @@ impl Reader {
             self.end_list(sink);
             return self.end_columns(sink);
         }
-        let whole = !self.long && quote == 0 && self.form.marks.is_none() && self.form.flow.is_none();
-        let alike = whole && self.alike.read(line, &mut self.scan);
+        let alike = !self.long && self.alike.read(line, &mut self.scan);
         let row = if self.long || alike { None } else { self.dump.row(line) };
         if row.is_none() && !alike && self.dump.ends(line) {
             return;
@@ -312,7 +311,7 @@ impl Reader {
             _ => {
                 let start = Start { from: begins.max(quote), in_row: begins > 0 };
                 self.scan.read(line, start, self.form.numbers);
-                if whole && row.is_none() {
+                if !self.long && row.is_none() {
                     self.alike.learn(line, &self.scan);
                 }
             }
@@ -362,8 +361,7 @@ impl Reader {
         // A digit that is left over is being typed.
         let runs = self.scan.runs.iter().filter(|run| run.span.len() > 1).count().max(1);
         let bare = self.scan.words == 0 && self.scan.time.is_none() && runs == 1;
-        let joined =
-            bare && self.header.as_ref().is_some_and(|header| header.row > 0 && header.row + 1 == self.line);
+        let joined = bare && self.header.as_ref().is_some_and(|header| header.row + 1 == self.line);
         // Rows below a header end where another line comes: what is said in it is said of them only.
         self.header.take_if(|header| header.row > 0 && !joined);
         let several = self.scan.runs.iter().any(|run| run.len() >= SHORTEST);
@@ -622,9 +620,6 @@ impl Reader {
     }
 
     fn end_columns(&mut self, sink: &mut dyn FnMut(Event<'_>)) {
-        if self.columns.is_empty() {
-            return;
-        }
         let sender = self.header.as_ref().and_then(|header| header.sender);
         let (line, offset, columns) = self.columns.end();
         for column in &columns {
@@ -697,7 +692,7 @@ fn pairs(line: &[u8], bytes: &[u8], places: &[Span]) -> Option<(usize, u8)> {
 pub fn pair(text: &[u8], at: usize) -> Option<u8> {
     let [high, low] = *text.get(at..)?.first_chunk()?;
     let digit = |c: u8| (c as char).to_digit(16);
-    Some((digit(high)? << 4 | digit(low)?) as u8)
+    Some((digit(high)? * 16 + digit(low)?) as u8)
 }
 
 /// Whether a colon or the like stands before a run.

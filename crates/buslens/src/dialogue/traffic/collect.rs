@@ -242,7 +242,7 @@ impl Traffic {
             // The usual way of a stream: nothing of it is copied but what is left over.
             lane.rows.clear();
             lane.rows.push(row);
-            let used = self.split(index, chunk.bytes, 0, false);
+            let used = self.split(index, chunk.bytes, false);
             let lane = &mut self.lanes[index];
             lane.buffer.extend_from_slice(&chunk.bytes[used..]);
             lane.forget(used);
@@ -250,7 +250,7 @@ impl Traffic {
         }
         lane.rows.push(row);
         lane.buffer.extend_from_slice(chunk.bytes);
-        let long = lane.buffer.len() > LONG;
+        let long = lane.buffer.len() > LONG && !row.facts.column;
         if (lane.streaming && !self.flowing) || (long && can_split(self.protocol)) {
             lane.streaming = true;
             self.drain_buffer(index, false);
@@ -366,10 +366,9 @@ impl Traffic {
         &self.pauses
     }
 
-    /// How many bytes of memory it takes.
+    /// How many bytes of memory it takes, as far as it is settled.
     pub fn memory(&self) -> usize {
-        let in_hand = self.data.capacity() + self.entries.capacity() * size_of::<Entry>();
-        self.settled.memory() + self.lines.memory() + in_hand
+        self.settled.memory() + self.lines.memory()
     }
 
     /// How many pieces of a text are telegrams of each of the [`FOREIGN`](crate::dialogue::foreign::FOREIGN).
@@ -496,8 +495,8 @@ impl Traffic {
             _ => (row.offset, skip.clamp(0, isize::from(i16::MAX)) as u16),
         };
         let (hint, sides) = match self.direction {
-            Some(direction) if role == Role::Plain => (Hint::Says(direction), sides_of(direction)),
-            _ => (row.hint, said.sides),
+            Some(direction) => (Hint::Says(direction), sides_of(direction)),
+            None => (row.hint, said.sides),
         };
         self.entries.push(Entry {
             time: row.time,

@@ -183,8 +183,8 @@ impl Traffic {
         // Who types telegrams types few lines that are none.
         let read = count - weak.iter().filter(|weak| !weak.read || weak.facts.slips).count();
         let typed = self.typed && (count <= FEW || read * 2 >= count);
-        if typed && self.settled.is_empty() {
-            self.choose_typed(count, &mut weak);
+        if typed && count == self.entries.len() && self.settled.is_empty() {
+            self.choose_typed(&mut weak);
         }
         self.settle_pdus(&weak, &gone);
         // What a block tells behind the beginning of the log is of itself only.
@@ -386,17 +386,13 @@ impl Traffic {
     }
 
     /// Where a person types nothing but telegrams, all of them together tell the protocol.
-    fn choose_typed(&mut self, count: usize, weak: &mut [Weak]) {
-        /// More are no typing.
-        const MOST: usize = 10_000;
+    fn choose_typed(&mut self, weak: &mut [Weak]) {
         /// So many bits speak for a protocol.
         const COMPANY: u32 = 5;
         /// And so many leave no doubt.
         const SURE: u32 = 16;
-        if count > MOST {
-            return;
-        }
-        let candidates: Vec<Candidate<'_>> = self.entries[..count]
+        let candidates: Vec<Candidate<'_>> = self
+            .entries
             .iter()
             .map(|entry| Candidate {
                 bytes: bytes(entry, &self.data),
@@ -431,7 +427,7 @@ impl Traffic {
             let other = bits >= SURE
                 || (family(chosen) != Family::Serial && bits > COMPANY + 2)
                 || self.settings.bus.is_some_and(|bus| bus == chosen.bus() && bus != own.bus())
-                || (self.lacks_data(index) && !one.cut && !none_checked)
+                || (self.lacks_data(index) && !one.cut && !none_checked && family(chosen) == Family::Serial)
                 || !one.read
                 || chosen.is(&modbus_ascii::PROTOCOL);
             one.read |= bits > 0 || company.contains(&(telegram.len(), chosen.key));

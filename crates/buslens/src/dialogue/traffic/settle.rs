@@ -17,6 +17,9 @@ const CLEAR_BLOCK: usize = 1 << 10;
 /// So many stay behind them, since what follows a telegram tells more of it.
 const BEHIND: usize = 64;
 
+/// A piece of a text has no more lines; it is known by its first one when its last one was read.
+const PIECE: u32 = 1 << 13;
+
 impl Traffic {
     /// Settles what is complete, up to a line that is read.
     #[inline]
@@ -29,6 +32,7 @@ impl Traffic {
                 // What has no lines has none to list: so many show that something else is there.
                 0 => self.passed.truncate(BLOCK),
                 _ => {
+                    let line = line.saturating_sub(PIECE);
                     self.settle(self.entries.partition_point(|entry| entry.line < line));
                     self.close_lines(line);
                 }
