@@ -21,7 +21,8 @@
 //! | the check is there and wrong; the end is missing | −5; −3 |
 //! | bare in its line; said who sends it; a label before it | 4; 4; 2 |
 //! | in brackets of its own; marked as bytes; a row of a dump; words of the trade | 3; 2; 3; 3 |
-//! | a number beside it says its length | 6 |
+//! | a number beside it says its length, or its check is named behind it: `[CRC]` | 6 |
+//! | commas between numbers of one digit | −6 |
 //! | called left over or thrown away | −6 |
 //! | it is of an array of a program, whose brackets, marks and size say nothing | −2 |
 //! | its numbers have two bytes and a mark each, as registers and addresses are written | −8 |
@@ -88,7 +89,8 @@ pub fn place(facts: &Facts) -> i32 {
         + of(facts.marked, 2)
         + of(facts.dumped, 3)
         + of(facts.of_telegrams, 3)
-        + of(facts.counted, 6)
+        + of(facts.counted || facts.check_named, 6)
+        + of(facts.digits, -6)
         + of(facts.of_leftovers, -6)
         + of(facts.words, -8)
 }

@@ -21,10 +21,14 @@ pub struct Facts {
     pub words: bool,
     /// Commas stand between its numbers.
     pub listed: bool,
+    /// Commas stand between its numbers, and each has one digit, as settings and counters have, too.
+    pub digits: bool,
     /// Its numbers have a prefix, an h, or are escapes: certainly bytes.
     pub marked: bool,
     /// A number beside it or in the line above says how many bytes it has.
     pub counted: bool,
+    /// Behind it stands a word for its check, in brackets: `[CRC]`.
+    pub check_named: bool,
     /// Words that telegrams have near them stand in its line: frame, CRC.
     pub of_telegrams: bool,
     /// Words say that it was left over or thrown away.

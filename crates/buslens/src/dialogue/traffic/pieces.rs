@@ -283,6 +283,8 @@ impl Traffic {
             let before = bytes.len() - 1;
             return bytes.len() > 4
                 && bytes[1] & !EXCEPTION != 0
+                // An exception has one byte behind its function.
+                && (bytes[1] & EXCEPTION == 0 || bytes.len() == 5)
                 && !(bytes[before] == 0 && is_right(&bytes[..before]));
         }
         if self.splitter.sides(pdu) != [false; 2] {
@@ -647,7 +649,8 @@ impl Traffic {
                 || !reading.is_some_and(|reading| reading.awaited) && checked();
             self.entries[before].sides = [asks, !asks];
         }
-        if bits(&reading) > 8 {
+        // A write of one value looks like nothing by itself.
+        if bits(&reading) > 8 || (facts.check_named && reading.is_some()) {
             self.shapes.look_alike(facts.shape);
         }
         match reading {

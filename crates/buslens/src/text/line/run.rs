@@ -95,6 +95,11 @@ impl Run {
         self.tokens
     }
 
+    /// Whether one of its numbers has a zero before its only digit.
+    pub fn is_padded(&self) -> bool {
+        self.padded
+    }
+
     /// Whether commas stand between its numbers.
     pub fn is_list(&self) -> bool {
         self.separator == b','
