@@ -682,6 +682,14 @@ fn has_placeholder(line: &[u8], run: &Run) -> bool {
     [b"xx", b"??", b"XX"].iter().any(|sign| behind.starts_with(*sign)) || names_check(behind)
 }
 
+/// Whether a text begins with a word for a check behind an arrow: `→ CRC = ?`, `-> CRC16`.
+fn leads_to_check(text: &[u8]) -> bool {
+    let arrows = ["→", "->", "=>", "+"].map(str::as_bytes);
+    let behind =
+        arrows.into_iter().find_map(|arrow| text.strip_prefix(arrow)).unwrap_or_default().trim_ascii_start();
+    behind.get(..3).is_some_and(|word| word.eq_ignore_ascii_case(b"crc"))
+}
+
 /// Whether a text begins with a word for a check, in brackets: `[CRC]`, `<crc16>`.
 fn names_check(text: &[u8]) -> bool {
     const LONGEST: usize = 12;
@@ -729,12 +737,14 @@ fn facts(line: &[u8], run: &Run, scan: &Scan) -> Facts {
         words: run.marked && run.tokens() > 1 && run.len() == 2 * run.tokens(),
         marked: run.marked,
         listed: run.is_list(),
-        digits: run.is_list()
-            && !run.span.of(line).windows(2).any(|two| two.iter().all(u8::is_ascii_hexdigit)),
+        digits: match run.span.of(line) {
+            number if run.tokens() == 1 => number[0] != b'0' && number.iter().all(u8::is_ascii_digit),
+            list => run.is_list() && !list.windows(2).any(|two| two.iter().all(u8::is_ascii_hexdigit)),
+        },
         of_telegrams: scan.of_telegrams,
         of_leftovers: scan.of_leftovers,
         abridged,
-        check_named: names_check(behind),
+        check_named: names_check(behind) || leads_to_check(behind),
         slips: scan.words == 0
             && (scan.slips > 0
                 || scan.near(run).iter().any(|other| other.first != run.first && other.span.len() == 1)),

@@ -563,7 +563,8 @@ impl Traffic {
             _ => true,
         };
         let (Some(function), Some(code)) = (asked.first(), answer.first()) else { return false };
-        if !same_unit || code & !EXCEPTION != *function || !request.sides[0] {
+        // Of a function that is not known, the length says neither.
+        if !same_unit || code & !EXCEPTION != *function || request.sides == [false, true] {
             return false;
         }
         if code & EXCEPTION != 0 {

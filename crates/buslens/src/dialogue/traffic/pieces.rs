@@ -14,6 +14,7 @@ use crate::frame::{
     profibus_fdl,
 };
 use crate::modbus::EXCEPTION;
+use crate::walk::crc_step;
 
 /// The beginning of a telegram, of one or more pieces.
 #[derive(Clone, Debug)]
@@ -347,7 +348,7 @@ impl Traffic {
                 _ => at += 1,
             }
         }
-        if !found.is_empty() {
+        if !found.is_empty() || self.both_right(bytes, found) {
             return;
         }
         // Over TCP nothing follows the last telegram.
@@ -368,6 +369,27 @@ impl Traffic {
         if let Some(from) = (idle.saturating_sub(1)..=idle).filter(|from| *from > 0).find(rest) {
             found.push((from, bytes.len(), &modbus_rtu::PROTOCOL, Verdict::Right));
         }
+    }
+
+    /// Finds two frames of a function that is not known, one right behind the other: both their checks are right.
+    fn both_right(&self, bytes: &[u8], found: &mut Vec<Found>) -> bool {
+        /// The shortest of them.
+        const SHORTEST: usize = 5;
+        let [_, function, ..] = *bytes else { return false };
+        if matches!(function, 0 | EXCEPTION..) || self.splitter.knows(function) || bytes.len() < 2 * SHORTEST
+        {
+            return false;
+        }
+        let mut crc = u16::MAX;
+        let end = (0..bytes.len() - SHORTEST).find(|at| {
+            crc = crc_step(crc, bytes[*at]);
+            let rest = &bytes[at + 1..];
+            crc == 0 && *at + 1 >= SHORTEST && rest[1] == function && is_right(rest)
+        });
+        let Some(end) = end.map(|at| at + 1) else { return false };
+        let rtu = &modbus_rtu::PROTOCOL;
+        found.extend([(0, end, rtu, Verdict::Right), (end, bytes.len(), rtu, Verdict::Right)]);
+        true
     }
 
     /// What waits for its response once `telegram` is sent.
@@ -606,6 +628,10 @@ impl Traffic {
     fn bare_profibus(&self, bytes: &[u8]) -> Option<Reading> {
         // What reads as a text is one: `AT+CGMI` and a line end.
         if bytes.iter().all(|c| matches!(c, b' '..=b'~' | b'\r' | b'\n')) {
+            return None;
+        }
+        // Eight zeros are a parameter channel without a job, and much else.
+        if bytes.iter().all(|byte| *byte == bytes[0]) {
             return None;
         }
         let bare = PROTOCOLS

@@ -188,6 +188,8 @@ impl Scan {
     /// `\x01` or `\01` outside of quotes. Letters and digits right behind the former are characters, as in the
     /// `\x845` that Python prints for 84 35.
     pub(super) fn escape(&mut self, line: &[u8], at: usize) -> usize {
+        /// So many characters without an escape are a text.
+        const LONGEST: usize = 16;
         if let Some((byte, length)) = self.short_escape(line, at) {
             let first = self.hex.len();
             self.push_marked(byte, at, at + length);
@@ -204,7 +206,15 @@ impl Scan {
         let first = self.hex.len();
         self.push_marked(byte, at, at + 4);
         let mut to = at + 4;
-        while let Some(c) = line.get(to).copied().filter(u8::is_ascii_alphanumeric) {
+        let plain = |c: &u8| c.is_ascii_alphanumeric();
+        // Signs that part no bytes are characters, too, where the next escape comes right behind: `\x01%\xA3`.
+        let sign = |c: &u8| {
+            c.is_ascii_graphic()
+                && !matches!(c, b'\\' | b'"' | b'\'' | b'`' | b',' | b';' | b':' | b'|' | b'-' | b'/')
+        };
+        let behind = line[to..].iter().take(LONGEST).take_while(|c| plain(c) || sign(c)).count();
+        let glued = hex(to + behind).is_some();
+        while let Some(c) = line.get(to).copied().filter(|c| plain(c) || (glued && sign(c))) {
             self.push_marked(c, to, to + 1);
             to += 1;
         }
