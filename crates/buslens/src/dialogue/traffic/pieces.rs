@@ -348,7 +348,7 @@ impl Traffic {
                 _ => at += 1,
             }
         }
-        if !found.is_empty() || self.both_right(bytes, found) {
+        if !found.is_empty() || self.unusual(bytes, found) {
             return;
         }
         // Over TCP nothing follows the last telegram.
@@ -371,25 +371,38 @@ impl Traffic {
         }
     }
 
-    /// Finds two frames of a function that is not known, one right behind the other: both their checks are right.
-    fn both_right(&self, bytes: &[u8], found: &mut Vec<Found>) -> bool {
+    /// Finds frames that are not taken one by one, since their unit or function is unusual: what is right has another
+    /// right one behind it, or nothing but a line that was not silent.
+    fn unusual(&self, bytes: &[u8], found: &mut Vec<Found>) -> bool {
         /// The shortest of them.
         const SHORTEST: usize = 5;
-        let [_, function, ..] = *bytes else { return false };
-        if matches!(function, 0 | EXCEPTION..) || self.splitter.knows(function) || bytes.len() < 2 * SHORTEST
-        {
+        let [unit, function, ..] = *bytes else { return false };
+        let known = self.splitter.knows(function);
+        if matches!(function, 0 | EXCEPTION..) || (known && unit <= 247) {
             return false;
         }
+        let lengths = self.splitter.rtu_lengths(bytes);
         let mut crc = u16::MAX;
-        let end = (0..bytes.len() - SHORTEST).find(|at| {
-            crc = crc_step(crc, bytes[*at]);
-            let rest = &bytes[at + 1..];
-            crc == 0 && *at + 1 >= SHORTEST && rest[1] == function && is_right(rest)
+        let ends = (1..=bytes.len()).filter(|end| {
+            crc = crc_step(crc, bytes[end - 1]);
+            crc == 0 && *end >= SHORTEST && (!known || lengths.contains(&Some(*end)))
         });
-        let Some(end) = end.map(|at| at + 1) else { return false };
+        let ends: Vec<usize> = ends.collect();
         let rtu = &modbus_rtu::PROTOCOL;
-        found.extend([(0, end, rtu, Verdict::Right), (end, bytes.len(), rtu, Verdict::Right)]);
-        true
+        ends.into_iter().any(|end| {
+            let idle = bytes[end..].iter().take_while(|byte| matches!(byte, 0 | 0xFF)).count();
+            let from = end + idle;
+            let rest = &bytes[from..];
+            let alone = rest.is_empty() && known;
+            let again = rest.get(1) == Some(&function) && is_right(rest);
+            if alone || again {
+                found.push((0, end, rtu, Verdict::Right));
+            }
+            if again {
+                found.push((from, bytes.len(), rtu, Verdict::Right));
+            }
+            alone || again
+        })
     }
 
     /// What waits for its response once `telegram` is sent.
@@ -630,10 +643,6 @@ impl Traffic {
         if bytes.iter().all(|c| matches!(c, b' '..=b'~' | b'\r' | b'\n')) {
             return None;
         }
-        // Eight zeros are a parameter channel without a job, and much else.
-        if bytes.iter().all(|byte| *byte == bytes[0]) {
-            return None;
-        }
         let bare = PROTOCOLS
             .iter()
             .copied()
@@ -642,6 +651,8 @@ impl Traffic {
         let (bits, protocol) = fits
             .filter(|(bits, _)| *bits > 0)
             .reduce(|best, other| if other.0 > best.0 { other } else { best })?;
+        // Eight zeros are a parameter channel without a job, and much else.
+        let bits = if bytes.iter().all(|byte| *byte == bytes[0]) { 0 } else { bits };
         Some(Reading { protocol, verdict: Verdict::NoCheck, from: 0, bits, cut: false, awaited: false })
     }
 
