@@ -156,29 +156,35 @@ const SIZES: [u64; 2] = [1 << 20, 1 << 40];
 
 #[test]
 fn logs_of_every_layout() {
-    let mut random = Random(19);
-    let (mut slices, mut logs) = (0, 0);
-    for index in 0..PROGRAMS.len() {
-        for size in SIZES {
-            let file = with_faults(index, random.next(), 1500);
-            let (found, _) =
-                compare(&file, &Reading::default(), size, &mut random, &format!("layout {index}"));
-            slices += found;
-            logs += 1;
-        }
+    assert!(read_layouts(19, 500, 1) > PROGRAMS.len());
+}
+
+/// Returns how many slices there were.
+fn read_layouts(seed: u64, exchanges: usize, rounds: usize) -> usize {
+    let mut random = Random(seed);
+    let mut slices = 0;
+    for n in 0..rounds * PROGRAMS.len() {
+        let file = with_faults(n % PROGRAMS.len(), random.next(), exchanges);
+        let what = format!("layout {}", n % PROGRAMS.len());
+        slices += compare(&file, &Reading::default(), random.of(&SIZES), &mut random, &what).0;
     }
-    assert!(slices > 2 * logs, "{slices} slices of {logs} logs");
+    slices
 }
 
 #[test]
 fn raw_streams_with_noise() {
-    let mut random = Random(20);
+    assert!(read_streams(20, 2000, 6) > 6);
+}
+
+fn read_streams(seed: u64, exchanges: u16, rounds: usize) -> usize {
+    let mut random = Random(seed);
     let reading = Reading { input: Input::Binary, ..Reading::default() };
-    for seed in 0..12 {
+    let mut slices = 0;
+    for round in 0..rounds {
         let mut file = Vec::new();
-        for n in 0..4000_u16 {
+        for n in 0..exchanges {
             for sent in exchange(&mut random) {
-                let bytes = if seed % 3 == 2 { sent.tcp(n) } else { sent.rtu() };
+                let bytes = if round % 3 == 2 { sent.tcp(n) } else { sent.rtu() };
                 file.extend(match random.below(40) {
                     0 => random.bytes(1 + bytes.len()),
                     1 => bytes[1..].to_vec(),
@@ -187,16 +193,18 @@ fn raw_streams_with_noise() {
                 });
             }
         }
-        for size in SIZES {
-            let (slices, _) = compare(&file, &reading, size, &mut random, &format!("stream {seed}"));
-            assert!(slices > 0);
-        }
+        slices += compare(&file, &reading, SIZES[round % 2], &mut random, &format!("stream {round}")).0;
     }
+    slices
+}
+
+#[test]
+fn posts_behind_each_other() {
+    read_posts(21, 60_000, 4);
 }
 
 /// What people posted, one behind the other, again and again.
-#[test]
-fn posts_behind_each_other() {
+fn read_posts(seed: u64, size: usize, rounds: usize) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/posts");
     let mut posts: Vec<Vec<u8>> = fs::read_dir(folder)
         .expect("posts")
@@ -205,25 +213,31 @@ fn posts_behind_each_other() {
         .map(|path| fs::read(path).expect("a post"))
         .collect();
     posts.sort();
-    let mut random = Random(21);
-    for n in 0..12 {
+    let mut random = Random(seed);
+    for n in 0..rounds {
         let mut file = Vec::new();
-        while file.len() < 400_000 {
+        while file.len() < size {
             file.extend_from_slice(&posts[random.below(posts.len())]);
             file.push(b'\n');
             // Logs have more telegrams than posts.
-            if n % 2 == 0 {
-                file.extend(with_faults(random.below(PROGRAMS.len()), random.next(), 20));
-            }
+            file.extend(with_faults(random.below(PROGRAMS.len()), random.next(), 20));
         }
         compare(&file, &Reading::default(), SIZES[n % 2], &mut random, &format!("posts {n}"));
     }
 }
 
+#[test]
+#[ignore = "takes minutes: `cargo test --release -p buslens --test logs slices -- --ignored`"]
+fn many_logs_in_slices() {
+    read_layouts(1019, 1500, 12);
+    read_streams(1020, 4000, 60);
+    read_posts(1021, 400_000, 60);
+}
+
 /// A log without faults, for some days.
 fn clean(days: u32) -> Vec<u8> {
     let mut random = Random(22);
-    let exchanges = 3000 * days;
+    let exchanges = 700 * days;
     let lines = (0..exchanges).flat_map(|n| {
         let seconds = (u64::from(n) * 86_400 * u64::from(days) / u64::from(exchanges) + 40_000) % 86_400;
         let [request, response] = exchange(&mut random).map(|sent| hex(&sent.rtu()));
@@ -239,7 +253,7 @@ fn slices_meet_at_once_over_midnight() {
     let file = clean(5);
     let mut random = Random(23);
     for size in SIZES {
-        for n in 0..10 {
+        for n in 0..3 {
             let (slices, again) =
                 compare(&file, &Reading::default(), size, &mut random, &format!("days {n}"));
             assert!(slices > 0 && again <= slices * 14_000, "{again} bytes again for {slices} slices");
@@ -253,7 +267,8 @@ fn the_slices_of_a_file() {
     let file = clean(5);
     let mut log = open(&file, file.len() as u64, &Reading::default(), DIVISION);
     let size = file.len() as u64;
-    assert_eq!(log.slices(size, 4, 1), [0..size], "its beginning is not read");
+    let slices = log.slices(size, 4, 1);
+    assert!(slices.len() == 1 && slices[0] == (0..size), "its beginning is not read");
     log.push(&file[..24_000]);
     assert_eq!(log.divisible_from(), Some(20_000));
     let slices = log.slices(size, 4, 1);
@@ -262,7 +277,7 @@ fn the_slices_of_a_file() {
     assert!(slices.windows(2).all(|pair| pair[0].end == pair[1].start));
     assert!(slices[1..].iter().all(|slice| slice.start % DIVISION.step == 0));
     assert_eq!(log.slices(size, 4, size).len(), 1, "it is too small");
-    let text: String = (0..3000).map(|n| format!("{} nothing is here\n", clock(n))).collect();
+    let text: String = (0..1500).map(|n| format!("{} nothing is here\n", clock(n))).collect();
     let mut log = open(text.as_bytes(), text.len() as u64, &Reading::default(), DIVISION);
     log.push(text.as_bytes());
     assert_eq!(log.divisible_from(), None, "it tells nothing");
