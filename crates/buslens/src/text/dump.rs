@@ -7,7 +7,7 @@ use crate::field::Span;
 
 /// Follows the offsets from row to row. A dump of a conversation counts those of each side by themselves, and
 /// something before the offset tells the two apart: `TX 0010:`, or only how far the row is indented.
-#[derive(Debug, Default)]
+#[derive(Debug, Hash, Default)]
 pub struct Dump {
     streams: Vec<Stream>,
     /// The stream of the last row.
@@ -15,7 +15,7 @@ pub struct Dump {
 }
 
 /// Rows whose offsets follow each other.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Hash)]
 struct Stream {
     /// What stands before the offset of each row.
     before: u32,

@@ -38,6 +38,8 @@ pub use marks::{Marks, Place};
 pub use typed::{Line, Remark, bytes, looks_typed, remarks};
 pub use words::Sender;
 
+use std::hash::{Hash, Hasher};
+
 use crate::field::{Facts, Span};
 use columns::Columns;
 use dump::{Dump, Words};
@@ -115,8 +117,8 @@ pub struct Reader {
     /// The line in hand is so long that its beginning was read already.
     long: bool,
     header: Option<Header>,
-    /// The time of a line without bytes, for the dump below it.
-    remembered: Option<i64>,
+    /// The time of a line without bytes, for the dump below it, and that line.
+    remembered: Option<(i64, u32)>,
     /// The last line without bytes begins an array of a program.
     array: bool,
     list: List,
@@ -214,6 +216,37 @@ impl Reader {
         self.end_list(sink);
         self.end_columns(sink);
         self.drop_header(sink);
+    }
+
+    /// Goes on elsewhere in the file, perhaps within a line, behind so many.
+    pub fn jump(&mut self, offset: u64, line: u32) {
+        let form = std::mem::take(&mut self.form);
+        let (alike, dump) = (std::mem::take(&mut self.alike), std::mem::take(&mut self.dump));
+        *self = Self { alike, dump, offset, line, long: true, ..Self::new(form) };
+    }
+
+    /// The file passes a mark: what stands far before it says nothing any more.
+    pub fn pass_mark(&mut self) {
+        /// A dump below a line with its time has no more.
+        const FAR: u32 = 64;
+        let line = self.line;
+        self.remembered.take_if(|(_, remembered)| line - *remembered > FAR);
+    }
+
+    /// All that what comes next hangs on; lines are counted from here.
+    pub fn hash_state(&self, hasher: &mut impl Hasher) {
+        (&self.dump, &self.carry, self.offset, self.after_return, self.long, self.array).hash(hasher);
+        self.remembered.map(|(time, line)| (time, self.line - line)).hash(hasher);
+        if let Some(Header { time, sender, port, line, offset, row, number, leftovers }) = &self.header {
+            let row = if *row == 0 { u32::MAX } else { self.line - row };
+            (time, sender, port, self.line - line, offset, row, number, leftovers).hash(hasher);
+        }
+        let List { bytes, decimal, both, places, breaks, line, offset, facts, sender, time } = &self.list;
+        if !bytes.is_empty() {
+            (bytes, decimal, both, places, breaks, self.line - line, offset, facts, sender, time)
+                .hash(hasher);
+        }
+        self.columns.hash_state(self.line, hasher);
     }
 
     /// How many lines were read.
@@ -450,7 +483,7 @@ impl Reader {
             time: context
                 .time
                 .or(header.and_then(|header| header.time))
-                .or(self.remembered.filter(|_| context.dumped || context.bare)),
+                .or(self.remembered.filter(|_| context.dumped || context.bare).map(|(time, _)| time)),
             sender: marks.or(sender).or(context.sender),
             port: (!port.is_empty()).then_some(port),
             joins: context.joins,
@@ -483,7 +516,7 @@ impl Reader {
             if time.is_some() {
                 self.drop_header(sink);
             }
-            self.remembered = time;
+            self.remembered = time.map(|time| (time, self.line));
             sink(Event::Unread { line: self.line, offset: self.offset });
         }
     }

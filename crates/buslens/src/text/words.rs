@@ -3,7 +3,7 @@
 use crate::field::Direction;
 
 /// What a line says of who speaks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Sender {
     /// It calls the telegram a request or a response.
     Says(Direction),

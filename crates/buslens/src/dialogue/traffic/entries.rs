@@ -50,6 +50,11 @@ impl Entries {
         Iter { rows: self.rows.iter(), index: 0 }
     }
 
+    /// Those from `index` on, of which there is at least that.
+    pub(super) fn from(&self, index: usize) -> Iter<'_> {
+        Iter { rows: self.rows.from(index), index }
+    }
+
     /// The bytes of an entry, if they are kept.
     pub fn kept(&self, entry: &Entry) -> Option<&[u8]> {
         entry.written.is_none().then(|| self.kept.get(entry.at, usize::from(entry.length)))

@@ -107,6 +107,13 @@ impl<const N: usize> Packed<N> {
         Rows { packed: self, chunk: Vec::new(), next: 0 }
     }
 
+    /// Those from `index` on.
+    pub fn from(&self, index: usize) -> Rows<'_, N> {
+        let mut rows = Rows { packed: self, chunk: Vec::new(), next: index / CHUNK * CHUNK };
+        rows.by_ref().take(index % CHUNK).for_each(drop);
+        rows
+    }
+
     /// How many bytes of memory it takes.
     pub fn memory(&self) -> usize {
         let chunks: usize = self.chunks.iter().map(|chunk| size_of_val(&chunk[..])).sum();

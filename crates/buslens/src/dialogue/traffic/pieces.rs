@@ -1,6 +1,8 @@
 //! Pieces of a text: what in them is proven to be a telegram, what is the beginning of one that goes on in the
 //! next piece, and what may be one.
 
+use std::hash::{Hash, Hasher};
+
 use super::collect::{Traffic, has_length, is_right, keep};
 use super::entry::{Hint, NO_TIME, Role};
 use super::judge::Weak;
@@ -33,6 +35,12 @@ pub(super) struct Held {
 }
 
 impl Held {
+    /// See [`Traffic::place`].
+    pub fn hash_state(&self, line: u32, days: i64, hasher: &mut impl Hasher) {
+        (&self.bytes, self.from, self.latest, &self.entries, self.complete, self.age).hash(hasher);
+        self.rows.iter().for_each(|row| row.hash_state(line, days, hasher));
+    }
+
     /// Entries are counted from `first` on; `false` if it has one before.
     pub fn count_from(&mut self, first: u32) -> bool {
         let counted = self.entries.iter().all(|entry| *entry >= first);
