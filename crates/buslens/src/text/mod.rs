@@ -332,9 +332,7 @@ impl Reader {
         }
         if self.form.flow.is_some() {
             return match flow::byte(&self.scan).copied() {
-                Some(run) => {
-                    self.emit(line, &run, Context { time, joins: self.long, ..Context::default() }, sink)
-                }
+                Some(run) => self.emit(line, &run, Context { time, ..Context::default() }, sink),
                 None => self.without_bytes(line, time, sink),
             };
         }

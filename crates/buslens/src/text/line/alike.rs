@@ -142,7 +142,7 @@ impl Pattern {
         let (before, own, tail) = (&line[..run.span.from], run.span.of(line), &line[run.span.to..]);
         let (mark, gap) = match run.style {
             Style::Separated if (1..=2).contains(&run.gap) => (0, run.gap),
-            Style::Prefixed if (1..=2).contains(&run.gap) => (2, run.gap),
+            Style::Prefixed => (2, run.gap),
             Style::Contiguous if run.tokens == 1 => (0, 0),
             _ => return None,
         };
@@ -371,6 +371,7 @@ mod tests {
                 "[09:30:06] rx: 81.00.1F.C8.00 (5 bytes in 12 ms)",
             ),
             ("2026-03-02 01 03 00 C8 00", "2026-03-02 11 03 00 C8 00"),
+            ("TX 0x01 , 0x03 , 0x00 , 0xC8 , 0x00", "TX 0x11 , 0x13 , 0x10 , 0xC8 , 0x00 , 0x05"),
             ("id:12345 rx 01 03 00 C8 00", "id:99999 rx 21 03 1A C8 00"),
             ("2026-03-02    01:03:00:C8:00", "2026-03-02    11:04:05:10:20"),
             ("rx: 0x01 0x03 0x00 0xC8 0x00, len 5", "rx: 0x11 0x13 0x10 0xC8 0x00, len 5"),
@@ -430,6 +431,7 @@ mod tests {
             ("TX 08: 01 03 00 C8 00", "TX 08 01 03 00 C8 00"),
             ("TX 01   03   00   C8   00", "TX 01 , 03 , 00 , C8 , 00"),
             ("TX 0103 00C8 0003", "TX 010300C80003"),
+            ("TX 0x01 , 0x03 , 0x00 , 0xC8 , 0x00", "TX 0x01 ; 0x03 ; 0x00 ; 0xC8 ; 0x00"),
             ("TX: 01 03 00 C8", "TX: 01 03 00 C8 00"),
             ("TX: 01 03 00 C8", "TX: 11 03 00 C8"),
         ] {
