@@ -70,7 +70,7 @@ impl Dump {
         let latest = self.streams.get(self.latest);
         let stream = match self.streams.iter().position(|stream| stream.before == before) {
             Some(stream) => self.streams.get(stream),
-            None => latest.filter(|latest| offset > 0 && values.contains(&Some(latest.next))),
+            None => latest.filter(|latest| values.contains(&Some(latest.next))),
         };
         let in_turn = latest.is_none_or(|latest| stream.is_none_or(|stream| stream.before == latest.before));
         let row = |offset, continues: bool| {

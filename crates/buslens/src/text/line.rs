@@ -384,11 +384,7 @@ impl Scan {
             let mut column = &text[from..];
             let mut shown = bytes.iter();
             while let Some(c) = column.first() {
-                let length = if *c < 0x80 {
-                    1
-                } else {
-                    1 + column[1..].iter().take(3).take_while(|c| (0x80..0xC0).contains(*c)).count()
-                };
+                let length = 1 + column[1..].iter().take(3).take_while(|c| (0x80..0xC0).contains(*c)).count();
                 let same =
                     |byte: &u8| c == byte || (!matches!(byte, b'!'..=b'~') && (*c == b'.' || *c >= 0x80));
                 if !shown.next().is_some_and(same) {

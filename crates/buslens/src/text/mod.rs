@@ -206,9 +206,7 @@ impl Reader {
         }
         self.after_return &= rest.is_empty();
         self.carry.extend_from_slice(rest);
-        if self.carry.len() > LONGEST_LINE {
-            self.cut(sink);
-        }
+        self.cut(sink);
     }
 
     /// The file ends.
@@ -279,8 +277,7 @@ impl Reader {
         let blank = |c: &u8| matches!(c, b' ' | b'\t' | b',' | b';' | b':' | b'-' | b'[' | b'<');
         let mut carry = std::mem::take(&mut self.carry);
         let mut from = 0;
-        while carry.len() - from > LONGEST_LINE {
-            let part = &carry[from..from + LONGEST_LINE];
+        while let Some(part) = carry.get(from..from + LONGEST_LINE) {
             let length = part.iter().rposition(blank).filter(|at| *at > 0).unwrap_or(LONGEST_LINE);
             self.read(&part[..length], sink);
             self.long = true;
@@ -298,23 +295,21 @@ impl Reader {
             self.end_list(sink);
             return self.end_columns(sink);
         }
-        let alike = !self.long && self.alike.read(line, &mut self.scan);
+        let alike = self.alike.read(line, &mut self.scan);
         let row = if self.long || alike { None } else { self.dump.row(line) };
-        if row.is_none() && !alike && self.dump.ends(line) {
+        if !alike && self.dump.ends(line) {
             return;
         }
         let marked = self.form.marks.as_ref().and_then(|marks| marks.bytes_from(line));
         let begins = row.map_or(0, |row| row.from).max(marked.unwrap_or(0));
         let words = row.map(|row| row.words);
-        match words {
-            _ if alike => {}
-            Some(Words::Octal) => self.scan.read_octal(line, begins),
-            _ => {
-                let start = Start { from: begins.max(quote), in_row: begins > 0 };
-                self.scan.read(line, start, self.form.numbers);
-                if !self.long && row.is_none() {
-                    self.alike.learn(line, &self.scan);
-                }
+        if words == Some(Words::Octal) {
+            self.scan.read_octal(line, begins);
+        } else if !alike {
+            let start = Start { from: begins.max(quote), in_row: begins > 0 };
+            self.scan.read(line, start, self.form.numbers);
+            if row.is_none() {
+                self.alike.learn(line, &self.scan);
             }
         }
         if self.form.counted {
@@ -338,9 +333,7 @@ impl Reader {
         }
         if self.form.flow.is_some() {
             return match flow::byte(&self.scan).copied() {
-                Some(run) => {
-                    self.emit(line, &run, Context { time, joins: self.long, ..Context::default() }, sink)
-                }
+                Some(run) => self.emit(line, &run, Context { time, ..Context::default() }, sink),
                 None => self.without_bytes(line, time, sink),
             };
         }

@@ -218,7 +218,6 @@ const CONVERSATIONS: &[&str] = &[
     "so FF 11 42 01 D0 A5",
     "so FF 11 42 01 02 03 DC DA",
     "so FF 11 80 01 02 03 E1 62",
-    "10:00:00 tx 0x01, 0x03, 0x00, 0xC8, 0x00, 0x03, 0x84, 0x35,\n10:00:01 rx 0x01, 0x83, 0x02, 0xC0, 0xF1,",
     "so 63 03 00 C8 00 03 ~~ it\n1\n2\n3\n4\n5\nso 63 03 06 00 80 42 it",
     "so 63 03 00 C8 00 03 it\nby 63 03 06 00 80 42 A4 F1 DE it",
     "so 63 03 00 C8 00 03 it\nby 62 03 06 00 80 42 A4 F1 DE it",

@@ -149,6 +149,7 @@ fn forms_of_texts() {
             "1 3 0 20 0 3 13 53",
             "1, 3, 0, -56, 0, 3",
             "100 101 99 12",
+            "01 03 1A 05 06 07",
             "{ 0x01, 3, 0, 20,\n0, 3, 13, 53 }",
             "010300C800038435",
             "a 01\nb 03\nc 00\nd 20\ne 00",
@@ -188,6 +189,7 @@ fn forms_of_texts() {
             "time,byte\n0.5,0x01\n1.25,03\n2.125 00\n3.0;C8",
             "12.5\t01\t.\n13.5\t0x03 x\n14\t00\n15.5x 03",
             "10:00:00.5 RX 01\n10:00:01 RX 03 04",
+            "0x01,\n0x03,\n0x00",
             "1.,01\n99999999999999.5,01\n0.1234567,01\n1.5",
         ] {
             pieces(&mut table, text, &form);
@@ -356,6 +358,7 @@ fn long_texts() {
         ("65,537 characters and bytes", "x".repeat((1 << 16) + 1) + " 01 03 00 C8 00 03"),
         ("30,000 bytes in a line", bytes(30_000, " ")),
         ("30,000 bytes in a line with a time", format!("10:00:00 tx: {}", bytes(30_000, " "))),
+        ("30,000 bytes with commas in a line", bytes(30_000, ", ") + ","),
         ("60,000 bytes without blanks", bytes(60_000, "")),
         ("30,000 bytes with colons, and a line", bytes(30_000, ":") + "\n01 03 00 C8\n"),
         ("a list of 4,096 bytes", rows(256, "1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16,")),

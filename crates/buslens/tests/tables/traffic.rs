@@ -294,6 +294,8 @@ fn streams_and_connections() {
                 "0: 01 03 00 C8 / 0.005: 00 03 84 35 / 1: ASKS",
                 "0: 01 03 00 C8 / 0.00501: 00 03 84 35 / 1: ASKS",
                 "0: ASKS / 1: 02 03 04 00 08 00 00 12 34",
+                "0: ASKS / 1: 01 03 05 00 08 00 00 12 34",
+                "0: ASKS / 1: 02 03 05 00 08 00 00 12 34",
                 "> 0: ASKS / < 0.1: ASKS / > 1: ASKS / < 1.1: ASKS / > 2: ASKS / < 2.1: ASKS / > 3: ASKS / > 10: ASKS",
                 "> 0: ASKS / < 0.1: ASKS / > 1: ASKS / < 1.1: ASKS / > 3: ANSWERS_2 / > 4: ASKS / < 5: ANSWERS / > 6: ASKS / < 7: ANSWERS / \
                  > 8: ASKS",

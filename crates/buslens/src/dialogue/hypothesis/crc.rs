@@ -21,7 +21,7 @@ pub fn needed(bytes: &[u8]) -> Vec<u16> {
         let high = (needed[at + 1] >> 8) as u8;
         // The table's high bytes are all different: this one tells which entry was used.
         let index = UNDO[high as usize];
-        needed[at] = (needed[at + 1] ^ step(index.into(), 0)) << 8 | u16::from(index ^ bytes[at]);
+        needed[at] = ((needed[at + 1] ^ step(index.into(), 0)) << 8) + u16::from(index ^ bytes[at]);
     }
     needed
 }

@@ -334,10 +334,8 @@ impl Traffic {
     /// A chunk follows that does not join.
     fn end_piece(&mut self, index: usize) {
         self.close(index);
-        if !self.both_ways && !self.flowing && self.lanes[index].rows.is_empty() {
-            let lane = &mut self.lanes[index];
-            lane.streaming &= lane.stream;
-        }
+        let lane = &mut self.lanes[index];
+        lane.streaming &= lane.stream;
     }
 
     /// What most telegrams of a lane are.

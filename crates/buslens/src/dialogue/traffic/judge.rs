@@ -169,8 +169,7 @@ fn family(protocol: &Protocol) -> Family {
 impl Traffic {
     /// Judges those of the first `count` entries that have no proof, and takes the telegrams out.
     pub(super) fn judge(&mut self, count: usize) -> Vec<Entry> {
-        let foreign = self.short_frames() > 0;
-        if self.weak.is_empty() && self.gone.is_empty() && !foreign {
+        if self.weak.is_empty() && self.gone.is_empty() && self.short_frames() == 0 {
             let mut block = self.take_out(count, &Chosen::of(count, std::iter::empty()), Vec::new());
             self.take_turns(&mut block);
             return block;

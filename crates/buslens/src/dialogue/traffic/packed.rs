@@ -377,6 +377,10 @@ mod tests {
         let each = packed.memory() as f64 / 100_000.0;
         assert!((6.0..7.0).contains(&each), "{each} bytes a row");
         assert!(packed.iter().len() == 100_000);
+        // Where nothing changes, a chunk of 256 rows has two words, and two tell where it is.
+        let mut packed = Packed::default();
+        (0..100_000).for_each(|_| packed.push([7]));
+        assert!((12_500..20_000).contains(&packed.memory()), "{} bytes", packed.memory());
     }
 
     /// So many bits it takes to write a row of one column, whose numbers are among so many that lie far apart.
@@ -395,8 +399,8 @@ mod tests {
         assert_eq!(bits_of(17, 32), 17 + 5 * 4);
         assert_eq!(bits_of(64, 32), 64 + 6 * 4);
         assert_eq!(bits_of(65, 32), 32 * 4);
-        // With 6 of 16 bits it would be as much.
-        assert_eq!(bits_of(40, 16), 16 * 4);
+        // With 6 of 16 bits it would be four words more.
+        assert_eq!(bits_of(44, 16), 16 * 4);
         assert_eq!(bits_of(39, 16), 39 + 6 * 4);
         assert_eq!(bits_of(8, 14), 8 + 3 * 4);
         assert_eq!(bits_of(8, 13), 13 * 4);

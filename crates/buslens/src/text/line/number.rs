@@ -241,7 +241,8 @@ impl Scan {
         /// What can follow a backslash, but in a path of Windows.
         const ESCAPES: &[u8] = b"xX0123456789tnrabvfeu\\\"'";
         let quote = line[at];
-        let unclosed = &mut self.unclosed[usize::from(quote == b'"')];
+        let [single, double] = &mut self.unclosed;
+        let unclosed = if quote == b'"' { double } else { single };
         if *unclosed {
             return at + 1;
         }
