@@ -81,7 +81,7 @@ pub fn Choices(answering: Answering, texts: Vec<String>) -> AnyView {
                 <input
                     type="radio"
                     name="choice"
-                    prop:checked=chosen
+                    prop:checked=move || chosen()
                     prop:disabled=move || answering.is_closed()
                     on:change=move |_| answering.enter(Answer::Choice(index))
                 />
@@ -256,7 +256,7 @@ pub fn Hints(answering: Answering, hints: Vec<String>) -> AnyView {
     let hint =
         |text: &String| view! { <li><Icon glyph=Glyph::Hint /><span><Words text=text.clone() /></span></li> };
     let rows = move || hints.iter().take(shown.get()).map(hint).collect_view();
-    view! { <ol class="hints" aria-label="Hints" aria-live="polite">{rows}</ol> }.into_any()
+    view! { <ol class="hints" aria-label="Hints" aria-live="polite">{move || rows()}</ol> }.into_any()
 }
 
 /// Who gave so many wrong answers need not go through all hints.
@@ -287,11 +287,11 @@ pub fn Help(
         <button
             type="button"
             class="button"
-            hidden=told
+            hidden=move || told()
             on:click=move |_| answering.change(|attempt| attempt.hints += 1)
         >
             <Icon glyph=Glyph::Hint />
-            {next}
+            {move || next()}
         </button>
         <button type="button" class="button plain" hidden=move || !answer() on:click=move |_| on_answer.run(())>
             {label}

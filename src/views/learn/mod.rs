@@ -6,6 +6,7 @@ mod gallery;
 mod lessons;
 mod practice;
 mod reference;
+mod search;
 mod state;
 mod words;
 
@@ -34,7 +35,7 @@ pub fn Learn() -> impl IntoView {
         <div class="learn">
             <h2 class="unseen">"Learn"</h2>
             <Segments label="Part of Learn" options=parts value=part on_choose=Callback::new(move |part| state.turn_to(part)) />
-            {shown}
+            {move || shown()}
         </div>
     }
 }

@@ -140,7 +140,7 @@ pub fn Overview() -> impl IntoView {
                     <Sign number course />
                     <b>{title}</b>
                     <span class="about">{about}</span>
-                    <span class="far">{far}</span>
+                    <span class="far">{move || far()}</span>
                 </a>
                 {removable}
             </li>
@@ -153,9 +153,9 @@ pub fn Overview() -> impl IntoView {
                 <h2 tabindex="-1">"Field buses, byte by byte"</h2>
                 <p>
                     "Short lessons on real telegrams. In each you first look, then fill in, then build, then mend one that is damaged. "
-                    {so_far}
+                    {move || so_far()}
                 </p>
-                {go_on}
+                {move || go_on()}
             </header>
             {move || groups(state, &entry)}
             <Files />

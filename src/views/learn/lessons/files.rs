@@ -27,7 +27,7 @@ pub fn Files() -> impl IntoView {
                 <button
                     type="button"
                     class="button"
-                    disabled=nothing
+                    disabled=move || nothing()
                     on:click=move |_| {
                         file::save("buslens-lessons.txt", &state.progress.with_untracked(|it| it.write()))
                     }
@@ -35,7 +35,7 @@ pub fn Files() -> impl IntoView {
                     <Icon glyph=Glyph::Save />
                     "Save my progress"
                 </button>
-                <button type="button" class="button" disabled=nothing on:click=move |_| state.forget()>
+                <button type="button" class="button" disabled=move || nothing() on:click=move |_| state.forget()>
                     <Icon glyph=Glyph::Undo />
                     "Begin anew"
                 </button>

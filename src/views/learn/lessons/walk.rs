@@ -205,7 +205,7 @@ pub fn Said(lit: Lit, shown: Vec<Shown>) -> impl IntoView {
                 <button
                     type="button"
                     class="button"
-                    disabled=first
+                    disabled=move || first()
                     on:click=move |_| lit.go(last.get_untracked().saturating_sub(usize::from(at.get_untracked().is_some())))
                 >
                     <Icon glyph=Glyph::Back />
@@ -214,7 +214,7 @@ pub fn Said(lit: Lit, shown: Vec<Shown>) -> impl IntoView {
                 <button
                     type="button"
                     class="button"
-                    disabled=end
+                    disabled=move || end()
                     on:click=move |_| lit.go(last.get_untracked() + usize::from(at.get_untracked().is_some()))
                 >
                     "Next"
@@ -228,7 +228,7 @@ pub fn Said(lit: Lit, shown: Vec<Shown>) -> impl IntoView {
     });
     (count > 0).then(|| {
         view! {
-            <div class="spoken" aria-live="polite">{said}</div>
+            <div class="spoken" aria-live="polite">{move || said()}</div>
             {player}
         }
     })

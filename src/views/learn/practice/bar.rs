@@ -34,7 +34,7 @@ pub fn bar(series: &Shared, index: Option<usize>) -> AnyView {
             <li>
                 <button
                     type="button"
-                    class=class
+                    class=move || class()
                     aria-label=move || format!("Question {}, {}", at + 1, outcome.get().words())
                     aria-current=(index == Some(at)).then_some("step")
                     on:click=move |_| to(Screen::Question(at))

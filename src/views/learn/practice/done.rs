@@ -85,7 +85,7 @@ pub fn done(series: Shared) -> AnyView {
         <article class="done">
             <h3 class="headline">{headline}</h3>
             <p class="intro">{more}</p>
-            {coded}
+            {move || coded()}
             <div class="steps">{onward} {button("button plain", Glyph::Undo, "The same once more", again)}</div>
         </article>
     }

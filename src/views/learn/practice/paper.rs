@@ -81,7 +81,7 @@ pub fn paper(series: Shared) -> AnyView {
             {button("button", Glyph::Save, "Moodle XML", moodle)}
             {button("button", Glyph::Save, "GIFT", gift)}
         </div>
-        {shown}
+        {move || shown()}
     }
     .into_any()
 }

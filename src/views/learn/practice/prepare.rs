@@ -86,12 +86,12 @@ pub fn prepare(from_read: bool) -> AnyView {
                     "Choose tasks, put them in order, and give the set to your group as a file or as a link. It is opened here, and asks everybody the same. This browser keeps what you prepare."
                 </p>
             </header>
-            {wrong}
+            {move || wrong()}
             {titled("Title", title, "set-title".to_owned(), move |title| {
                 state.prepare(set::titled(&state.draft.get_untracked(), None, &title));
             })}
-            <ol class="chosen-tasks" aria-label="Tasks of the set">{rows}</ol>
-            {none}
+            <ol class="chosen-tasks" aria-label="Tasks of the set">{move || rows()}</ol>
+            {move || none()}
             <div class="acts">
                 {pressed("button main", Some(Glyph::Forward), "Open the set".into(), unready, Callback::new(open))}
                 {pressed("button", Some(Glyph::Save), "Save as a file".into(), empty, Callback::new(save))}

@@ -134,7 +134,7 @@ fn AnswerForm(answering: Answering, task: StoredValue<Task>, lights: Lights) -> 
                 }
                 _ => "none yet: click one above, or go to it with the arrow keys and press Enter".to_owned(),
             };
-            view! { <p class="chosen-one">"Chosen: " <strong>{chosen}</strong></p> }.into_any()
+            view! { <p class="chosen-one">"Chosen: " <strong>{move || chosen()}</strong></p> }.into_any()
         }
         Expected::Blanks { telegram, blanks } => {
             let spans: Vec<Span> = blanks.iter().map(|blank| blank.span).collect();
@@ -194,7 +194,7 @@ fn Said(attempt: Memo<Attempt>, task: StoredValue<Task>) -> impl IntoView {
             {more}
         }
     };
-    view! { <div class="saying" role="status">{shown}</div> }
+    view! { <div class="saying" role="status">{move || shown()}</div> }
 }
 
 /// How the answer comes about, once it is found.

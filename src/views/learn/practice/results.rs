@@ -89,7 +89,7 @@ pub fn results() -> AnyView {
                 <OpenFile label="Open files" multiple=true accept=".txt,text/plain" on_open=Callback::new(open) />
                 {pressed("button", Some(Glyph::Save), "Save as CSV".into(), none, Callback::new(save))}
             </div>
-            {table}
+            {move || table()}
             <p class="note">
                 "Nothing is sent anywhere: who sits before this page sees the table, and nobody else. A code is short, not secret."
             </p>

@@ -55,7 +55,7 @@ pub fn start(refused: &'static str) -> AnyView {
     };
     view! {
         {(!refused.is_empty()).then(|| view! { <p class="refused" role="alert">{refused}</p> })}
-        {wrong}
+        {move || wrong()}
         <header class="start">
             <div>
                 <h3 class="headline">"Practice"</h3>
@@ -78,10 +78,10 @@ pub fn start(refused: &'static str) -> AnyView {
                     prop:value=typed
                     on:input=move |event| typed.set(event_target_value(&event))
                 />
-                <span class="note" id="seed-note">{seed_note}</span>
+                <span class="note" id="seed-note">{move || seed_note()}</span>
             </label>
         </header>
-        {sets}
+        {move || sets()}
         <ul class="kind-cards">{kinds}</ul>
         <section class="trainers">
             <h3>"For trainers"</h3>

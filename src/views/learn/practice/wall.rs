@@ -77,7 +77,7 @@ pub fn wall(series: Shared, index: usize) -> AnyView {
             {strip}
             {choices}
             <p class="wall-answer" aria-live="polite">
-                {said}
+                {move || said()}
             </p>
             <div class="tools">
                 {pressed("button", Some(Glyph::Back), "Back".into(), first, Callback::new(move |()| turn(-1)))}

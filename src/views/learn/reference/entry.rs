@@ -19,7 +19,7 @@ pub fn Entry(item: Signal<Option<Arc<Item>>>) -> impl IntoView {
     };
     view! {
         <section class="entry" aria-label="Entry">
-            {shown}
+            {move || shown()}
         </section>
     }
 }

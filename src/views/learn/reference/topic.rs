@@ -105,7 +105,7 @@ pub fn TopicPage(item: Arc<Item>) -> impl IntoView {
                 </div>
             </header>
             {(!repeated).then(|| view! { <p>{note}</p> })}
-            {layouts}
+            {move || layouts()}
             <footer>{source(said_by)}</footer>
         </article>
     }
