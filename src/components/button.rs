@@ -8,7 +8,7 @@ use super::icon::{Glyph, Icon};
 #[component]
 pub fn Button(
     #[prop(into)] label: Signal<String>,
-    on_press: Callback<()>,
+    #[prop(into)] on_press: Callback<()>,
     #[prop(into, optional)] glyph: Option<Glyph>,
     /// With `icon-only`, the word is for screen readers.
     #[prop(default = "button")]

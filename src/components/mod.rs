@@ -1,7 +1,7 @@
 //! Parts that several views use, one file each.
 
-pub mod byte_strip;
 pub mod button;
+pub mod byte_strip;
 pub mod causes;
 pub mod check_result;
 pub mod choose;

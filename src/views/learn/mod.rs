@@ -4,6 +4,7 @@ mod answer;
 mod attempt;
 mod gallery;
 mod lessons;
+mod mistakes;
 mod practice;
 mod reference;
 mod search;

@@ -173,7 +173,7 @@ pub fn Gallery() -> impl IntoView {
     let manuals = MANUALS.map(|(key, _, label)| (key, label));
     let manuals = choices(manuals.into_iter().chain([(STANDARDS, "Standards")]));
     let functions = functions.into_iter().map(|(code, label)| (code.to_string(), format!("{code}: {label}")));
-    let clear = Callback::new(move |()| state.go_to(Part::Gallery, String::new()));
+    let clear = move |()| state.go_to(Part::Gallery, String::new());
     let none = move || {
         found.with(Vec::is_empty).then(|| {
             view! {

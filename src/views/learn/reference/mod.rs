@@ -134,10 +134,10 @@ pub fn Reference() -> impl IntoView {
         }
         _ => 0,
     });
-    let everywhere = Callback::new(move |()| {
+    let everywhere = move |()| {
         let to = Place { typed: typed.get_untracked(), ..Place::default() };
         state.go_to(Part::Reference, to.text());
-    });
+    };
     let topic = Memo::new(move |_| open.get().filter(|open| is_topic(&open.0)));
     let is_start = move || chapter.get().is_none() && typed.with(|typed| typed.trim().is_empty());
     let content = move || {
@@ -160,12 +160,12 @@ pub fn Reference() -> impl IntoView {
             state.go_to(Part::Reference, to.text());
         });
         let rows = Signal::derive(move || found.get().0);
-        let with_book = Signal::derive(move || chapter.get().is_none());
-        let are_pages = move || chapter.get().is_some_and(|(_, chapter)| chapter == Chapter::Telegrams);
+        let with_book = chapter.get().is_none();
+        let are_pages = chapter.get().is_some_and(|(_, chapter)| chapter == Chapter::Telegrams);
         view! {
-            <div class="looked-up" class:pages=move || are_pages()>
+            <div class="looked-up" class:pages=are_pages>
                 <Table rows chosen with_book on_choose />
-                {move || (!are_pages()).then(|| view! { <Entry item=chosen /> })}
+                {(!are_pages).then(|| view! { <Entry item=chosen /> })}
             </div>
         }
         .into_any()
@@ -229,10 +229,12 @@ impl PartialEq for ByKey {
 fn Contents(chapter: Memo<Option<(Book, Chapter)>>) -> impl IntoView {
     let of_book = |book: Book| {
         let link = |own: Chapter| {
-            let is_here = move || (chapter.get() == Some((book, own))).then_some("true");
             view! {
                 <li>
-                    <a href=Place::in_chapter(book, own).href() aria-current=move || is_here()>
+                    <a
+                        href=Place::in_chapter(book, own).href()
+                        aria-current=move || (chapter.get() == Some((book, own))).then_some("true")
+                    >
                         {own.label(book)}
                     </a>
                 </li>
