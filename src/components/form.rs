@@ -162,7 +162,7 @@ fn group(entry: Signal<Entry>, within_list: bool) -> impl IntoView {
     // A group of nothing has nothing to say.
     view! {
         <fieldset class="group" hidden=move || within.with(Vec::is_empty)>
-            <legend>{shown}</legend>
+            <legend>{move || shown()}</legend>
             {(!note.is_empty() && !within_list).then(|| view! { <p class="note">{note}</p> })}
             {level(within.into(), within_list)}
         </fieldset>
@@ -196,7 +196,7 @@ fn list(entry: Signal<Entry>) -> impl IntoView {
     };
     let (label, note) = entry.with_untracked(|entry| (entry.label().sentence(), entry.spec.note));
     view! {
-        <fieldset class="list" class:long=is_long>
+        <fieldset class="list" class:long=move || is_long()>
             <legend>
                 {label} " " <small>{move || length.get().to_string()}</small>
             </legend>
@@ -251,7 +251,7 @@ fn single(entry: Signal<Entry>, within_list: bool) -> impl IntoView {
                         autocomplete="off"
                         autocapitalize="off"
                         spellcheck="false"
-                        placeholder=placeholder
+                        placeholder=move || placeholder()
                         aria-describedby=about.clone()
                         aria-invalid=move || (!said.with(String::is_empty)).to_string()
                         prop:value=move || entry.with(|entry| text(&entry.content))
@@ -277,7 +277,7 @@ fn single(entry: Signal<Entry>, within_list: bool) -> impl IntoView {
         <div class=format!("entry {}", role_class(spec.role)) on:focusin=focus>
             {label}
             {control}
-            <p class="about" id=about hidden=nothing>
+            <p class="about" id=about hidden=move || nothing()>
                 <span class="misfit" aria-live="polite">{said}</span>
                 <small>{hint}</small>
             </p>
@@ -391,7 +391,7 @@ fn choice(entry: Signal<Entry>, spec: &'static Spec, id: String, edit: Callback<
             class="select"
             on:change=move |event| edit.run(Edit::Enter(event_target_value(&event)))
         >
-            {other}
+            {move || other()}
             {spec.names.iter().map(option).collect_view()}
         </select>
     }
@@ -417,7 +417,7 @@ fn names(entry: Signal<Entry>, spec: &'static Spec, edit: Callback<Edit>) -> imp
     };
     let label = move || entry.with(|entry| format!("{}, by name", entry.label().sentence()));
     view! {
-        <select class="select" aria-label=label on:change=choose>
+        <select class="select" aria-label=move || label() on:change=choose>
             <option value="" prop:selected=move || !named()>"choose …"</option>
             {spec.names.iter().map(option).collect_view()}
         </select>

@@ -44,7 +44,7 @@ pub fn Bytes() -> impl IntoView {
             _ => String::new(),
         };
         view! {
-            <li class=class>
+            <li class=move || class()>
                 <span class="label" aria-hidden="true">{format!("byte {at}")}</span>
                 <span class="cells">
                     <button
@@ -82,7 +82,7 @@ pub fn Bytes() -> impl IntoView {
             on:keydown=keys
         >
             <For each=bytes key=|byte| *byte children=byte />
-            {check}
+            {move || check()}
         </ol>
     }
 }
@@ -105,7 +105,7 @@ pub fn Player() -> impl IntoView {
                 type="button"
                 class="button icon-only"
                 aria-label="Step back"
-                disabled=at_start
+                disabled=move || at_start()
                 on:click=move |_| state.back()
             >
                 <Icon glyph=Glyph::Back />
@@ -122,7 +122,7 @@ pub fn Player() -> impl IntoView {
                 type="button"
                 class="button icon-only"
                 aria-label="Step forward"
-                disabled=at_end
+                disabled=move || at_end()
                 on:click=move |_| state.forward()
             >
                 <Icon glyph=Glyph::Forward />
@@ -143,7 +143,7 @@ pub fn Player() -> impl IntoView {
                 }
                 on:input=move |event| state.go(event_target_value(&event).parse().unwrap_or(0))
             />
-            <button type="button" class="button" disabled=at_end on:click=move |_| state.next_byte()>
+            <button type="button" class="button" disabled=move || at_end() on:click=move |_| state.next_byte()>
                 "Next byte"
             </button>
             <button
@@ -236,7 +236,7 @@ pub fn StepList() -> impl IntoView {
         let here = move || state.at() == at;
         let within = move || steps.with(|steps| steps.iter().any(|(other, _)| *other == state.at()));
         view! {
-            <tr class:chosen=here>
+            <tr class:chosen=move || here()>
                 <td class="soft number">{at}</td>
                 <th scope="row">
                     <button
@@ -255,9 +255,9 @@ pub fn StepList() -> impl IntoView {
     let kind = move || work.with(|work| (work.algorithm.kind, work.bytes.clone()));
     view! {
         <div class="part">
-            <h3>{title}</h3>
+            <h3>{move || title()}</h3>
             <div class="scroll">
-                <table class="table" aria-label=title on:keydown=keys>
+                <table class="table" aria-label=move || title() on:keydown=keys>
                     <tbody node_ref=list>
                         // What a step says depends on the bytes, too.
                         <For

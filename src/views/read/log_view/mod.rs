@@ -97,14 +97,14 @@ fn FileBar() -> impl IntoView {
         <section class="file-bar" aria-label="File">
             <Icon glyph=Glyph::File />
             <strong>{name}</strong>
-            <span class="soft number" title=format>
-                {about}
+            <span class="soft number" title=move || format()>
+                {move || about()}
             </span>
             <div class="acts">
                 <Show when=move || read.is_text()>
                     <button type="button" class="button plain" on:click=edit>
                         <Icon glyph=Glyph::Edit />
-                        {edit_label}
+                        {move || edit_label()}
                     </button>
                 </Show>
                 <button type="button" class="button plain" on:click=move |_| read.clear()>

@@ -139,14 +139,14 @@ pub fn Timeline() -> impl IntoView {
                     aria-valuemin="0"
                     aria-valuemax=move || (stretches() - 1).to_string()
                     aria-valuenow=move || at.get().min(stretches() - 1).to_string()
-                    aria-valuetext=words
+                    aria-valuetext=move || words()
                     on:pointerdown=down
                     on:pointermove=moved
                     on:pointerup=up
                     on:pointercancel=move |_| dragged.set(None)
                     on:keydown=keys
                 >
-                    {lanes} {band} {shown}
+                    {lanes} {move || band()} {move || shown()}
                     <span
                         class="key-cursor"
                         style:left=move || format!("{}%", (at.get() as f64 + 0.5) * 100.0 / stretches() as f64)
