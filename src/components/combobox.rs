@@ -134,7 +134,7 @@ where
                 aria-autocomplete="list"
                 aria-expanded=move || open.get().to_string()
                 aria-controls=id.get_value()
-                aria-activedescendant=move || active()
+                aria-activedescendant=active
                 aria-invalid=move || invalid.get().to_string()
                 prop:value=move || value.get()
                 on:input=input

@@ -251,7 +251,7 @@ fn single(entry: Signal<Entry>, within_list: bool) -> impl IntoView {
                         autocomplete="off"
                         autocapitalize="off"
                         spellcheck="false"
-                        placeholder=move || placeholder()
+                        placeholder=placeholder
                         aria-describedby=about.clone()
                         aria-invalid=move || (!said.with(String::is_empty)).to_string()
                         prop:value=move || entry.with(|entry| text(&entry.content))
@@ -277,7 +277,7 @@ fn single(entry: Signal<Entry>, within_list: bool) -> impl IntoView {
         <div class=format!("entry {}", role_class(spec.role)) on:focusin=focus>
             {label}
             {control}
-            <p class="about" id=about hidden=move || nothing()>
+            <p class="about" id=about hidden=nothing>
                 <span class="misfit" aria-live="polite">{said}</span>
                 <small>{hint}</small>
             </p>
@@ -417,7 +417,7 @@ fn names(entry: Signal<Entry>, spec: &'static Spec, edit: Callback<Edit>) -> imp
     };
     let label = move || entry.with(|entry| format!("{}, by name", entry.label().sentence()));
     view! {
-        <select class="select" aria-label=move || label() on:change=choose>
+        <select class="select" aria-label=label on:change=choose>
             <option value="" prop:selected=move || !named()>"choose …"</option>
             {spec.names.iter().map(option).collect_view()}
         </select>

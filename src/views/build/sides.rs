@@ -70,7 +70,7 @@ fn Actions(#[prop(into)] shown: Signal<Option<Shown>>, main: bool) -> impl IntoV
     view! {
         <CopyButton text=bytes_of(shown) label="Copy hex" class=if main { "main" } else { "" } />
         <CopyAs shown />
-        <a class="button" href=move || read() aria-label="Open in Read">
+        <a class="button" href=read aria-label="Open in Read">
             <Icon glyph=Glyph::Read />
             "Read"
         </a>

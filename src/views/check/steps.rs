@@ -44,7 +44,7 @@ pub fn Bytes() -> impl IntoView {
             _ => String::new(),
         };
         view! {
-            <li class=move || class()>
+            <li class=class>
                 <span class="label" aria-hidden="true">{format!("byte {at}")}</span>
                 <span class="cells">
                     <button
@@ -105,7 +105,7 @@ pub fn Player() -> impl IntoView {
                 type="button"
                 class="button icon-only"
                 aria-label="Step back"
-                disabled=move || at_start()
+                disabled=at_start
                 on:click=move |_| state.back()
             >
                 <Icon glyph=Glyph::Back />
@@ -122,7 +122,7 @@ pub fn Player() -> impl IntoView {
                 type="button"
                 class="button icon-only"
                 aria-label="Step forward"
-                disabled=move || at_end()
+                disabled=at_end
                 on:click=move |_| state.forward()
             >
                 <Icon glyph=Glyph::Forward />
@@ -143,7 +143,7 @@ pub fn Player() -> impl IntoView {
                 }
                 on:input=move |event| state.go(event_target_value(&event).parse().unwrap_or(0))
             />
-            <button type="button" class="button" disabled=move || at_end() on:click=move |_| state.next_byte()>
+            <button type="button" class="button" disabled=at_end on:click=move |_| state.next_byte()>
                 "Next byte"
             </button>
             <button
@@ -257,7 +257,7 @@ pub fn StepList() -> impl IntoView {
         <div class="part">
             <h3>{move || title()}</h3>
             <div class="scroll">
-                <table class="table" aria-label=move || title() on:keydown=keys>
+                <table class="table" aria-label=title on:keydown=keys>
                     <tbody node_ref=list>
                         // What a step says depends on the bytes, too.
                         <For

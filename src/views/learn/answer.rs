@@ -82,7 +82,7 @@ pub fn Choices(answering: Answering, texts: Vec<String>) -> AnyView {
                 <input
                     type="radio"
                     name="choice"
-                    prop:checked=move || chosen()
+                    prop:checked=chosen
                     prop:disabled=move || answering.is_closed()
                     on:change=move |_| answering.enter(Answer::Choice(index))
                 />

@@ -85,7 +85,7 @@ fn Way(here: Here) -> impl IntoView {
                         class:done=done
                         aria-current=(at == here.step).then_some("step")
                         aria-label=name.clone()
-                        title=move || name()
+                        title=name
                     >
                         {at + 1}
                     </a>

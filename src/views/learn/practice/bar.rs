@@ -33,7 +33,7 @@ pub fn bar(series: &Shared, index: Option<usize>) -> AnyView {
             <li>
                 <button
                     type="button"
-                    class=move || class()
+                    class=class
                     aria-label=move || format!("Question {}, {}", at + 1, outcome.get().words())
                     aria-current=(index == Some(at)).then_some("step")
                     on:click=move |_| to.run(Screen::Question(at))

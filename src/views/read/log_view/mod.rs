@@ -97,7 +97,7 @@ fn FileBar() -> impl IntoView {
         <section class="file-bar" aria-label="File">
             <Icon glyph=Glyph::File />
             <strong>{name}</strong>
-            <span class="soft number" title=move || format()>
+            <span class="soft number" title=format>
                 {move || about()}
             </span>
             <div class="acts">

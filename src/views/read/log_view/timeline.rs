@@ -139,7 +139,7 @@ pub fn Timeline() -> impl IntoView {
                     aria-valuemin="0"
                     aria-valuemax=move || (stretches() - 1).to_string()
                     aria-valuenow=move || at.get().min(stretches() - 1).to_string()
-                    aria-valuetext=move || words()
+                    aria-valuetext=words
                     on:pointerdown=down
                     on:pointermove=moved
                     on:pointerup=up
