@@ -1,9 +1,9 @@
 //! A module with its functions in another order. Nobody reads them in any, but compressors do: gzip remembers
-//! 32 kB and finds what it had there. So those that are like each other stand side by side, which makes the
+//! 32 kB and finds what it had there. So those that are like each other stand near each other, which makes the
 //! parts of the page smaller by a sixteenth.
 
 use std::cmp::Reverse;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 use wasm_encoder::reencode::{Error, Reencode};
 use wasm_encoder::{CodeSection, FunctionSection, Module};
@@ -54,52 +54,85 @@ impl Order {
     }
 }
 
-/// Each function behind the one that it has most in common with, of those that are left: as runs of bytes that stand in
-/// both. The same source, compiled for other types, gives such functions.
+/// One function after another, each time the one that has most in common with what was written last: as runs of
+/// bytes that stand in both. The same source, compiled for other types, gives such functions.
 fn by_likeness(types: &[u32], bodies: &[FunctionBody]) -> Vec<usize> {
-    /// Found by trying: shorter runs stand everywhere, and so do those of more functions.
+    /// Found by trying, as are the others: shorter runs stand everywhere, and so do those of more functions.
     const RUN: usize = 5;
     const MOST: usize = 500;
-    let runs: Vec<HashSet<&[u8]>> =
-        bodies.iter().map(|body| body.as_bytes().windows(RUN).collect()).collect();
-    let mut holders: HashMap<&[u8], Vec<usize>> = HashMap::new();
-    for (function, runs) in runs.iter().enumerate() {
-        runs.iter().for_each(|run| holders.entry(run).or_default().push(function));
+    /// So many bytes were written last: half of what gzip remembers.
+    const NEAR: usize = 16 * 1024;
+    /// How much the very last function counts beside them.
+    const LAST: f64 = 2.0;
+    const SAME_TYPE: f64 = 1.3;
+    // The runs by numbers, those of each function, and the functions that have each.
+    let mut numbers: HashMap<&[u8], usize> = HashMap::new();
+    let mut holders: Vec<Vec<usize>> = Vec::new();
+    let mut runs: Vec<Vec<usize>> = Vec::new();
+    for (function, body) in bodies.iter().enumerate() {
+        let mut own = Vec::new();
+        for run in body.as_bytes().windows(RUN) {
+            let next = numbers.len();
+            let run = *numbers.entry(run).or_insert(next);
+            if run == next {
+                holders.push(Vec::new());
+            }
+            if holders[run].last() != Some(&function) {
+                holders[run].push(function);
+                own.push(run);
+            }
+        }
+        runs.push(own);
     }
-    holders.retain(|_, functions| (2..=MOST).contains(&functions.len()));
-    // Where nothing is like the last one, it goes on with the next of these.
-    let mut rest: Vec<usize> = (0..bodies.len()).collect();
-    rest.sort_by_key(|function| (types[*function], bodies[*function].as_bytes().len()));
-    let mut rest = rest.into_iter();
-    let mut is_left = vec![true; bodies.len()];
+    for holders in holders.iter_mut().filter(|holders| !(2..=MOST).contains(&holders.len())) {
+        holders.clear();
+    }
+    let mut left: Vec<usize> = (0..bodies.len()).collect();
+    left.sort_by_key(|function| (types[*function], bodies[*function].as_bytes().len()));
     let mut order = Vec::with_capacity(bodies.len());
+    // How often each run stands in what was written last, and how many of each function's runs do.
+    let mut near = vec![0_usize; holders.len()];
     let mut shared = vec![0_usize; bodies.len()];
-    while let Some(start) = rest.find(|function| is_left[*function]) {
-        let mut next = Some(start);
-        while let Some(function) = next {
-            is_left[function] = false;
-            order.push(function);
-            let mut met = Vec::new();
-            for other in runs[function].iter().filter_map(|run| holders.get(run)).flatten() {
-                if is_left[*other] {
-                    if shared[*other] == 0 {
-                        met.push(*other);
-                    }
-                    shared[*other] += 1;
+    let (mut size, mut behind) = (0, 0);
+    let mut next = (!left.is_empty()).then_some(0);
+    while let Some(at) = next {
+        let last = left.remove(at);
+        order.push(last);
+        size += bodies[last].as_bytes().len();
+        for run in &runs[last] {
+            near[*run] += 1;
+            if near[*run] == 1 {
+                holders[*run].iter().for_each(|holder| shared[*holder] += 1);
+            }
+        }
+        while size > NEAR && behind < order.len() {
+            let gone: usize = order[behind];
+            behind += 1;
+            size -= bodies[gone].as_bytes().len();
+            for run in &runs[gone] {
+                near[*run] -= 1;
+                if near[*run] == 0 {
+                    holders[*run].iter().for_each(|holder| shared[*holder] -= 1);
                 }
             }
-            // The share of what stands in both in what stands in either; the first one of those that are as like.
-            let likeness = |other: &usize| {
-                let both = shared[*other] as f64;
-                let either = (runs[function].len() + runs[*other].len()) as f64 - both;
-                if types[function] == types[*other] { 1.3 * both / either } else { both / either }
-            };
-            let best = met.iter().map(|other| (likeness(other), Reverse(*other)));
-            next = best
-                .max_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)))
-                .map(|best| best.1.0);
-            met.into_iter().for_each(|other| shared[other] = 0);
         }
+        let mut with_last = vec![0_usize; bodies.len()];
+        for run in &runs[last] {
+            holders[*run].iter().for_each(|holder| with_last[*holder] += 1);
+        }
+        let score = |function: usize| {
+            let own = runs[function].len().max(1) as f64;
+            let both = with_last[function] as f64;
+            // The share of what stands in both in what stands in either.
+            let likeness = both / (own + runs[last].len().max(1) as f64 - both);
+            let same = if types[function] == types[last] { SAME_TYPE } else { 1.0 };
+            shared[function] as f64 / own + LAST * same * likeness
+        };
+        // The first one of those that are as like.
+        next = (0..left.len())
+            .map(|at| (score(left[at]), Reverse(at)))
+            .max_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)))
+            .map(|best| best.1.0);
     }
     order
 }

@@ -47,7 +47,7 @@ pub fn CopyAs(#[prop(into)] shown: Signal<Option<Shown>>, #[prop(optional)] at_e
         <Show when=move || shown.with(Option::is_some)>
             <Menu label="Copy as" glyph=Glyph::Copy at_end=at_end>
                 {FORMATS.iter().map(entry).collect_view()}
-                {as_characters}
+                {move || as_characters()}
                 <MenuItem on_choose=as_json>"JSON, with its fields"</MenuItem>
             </Menu>
         </Show>

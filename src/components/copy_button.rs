@@ -42,7 +42,7 @@ pub fn CopyButton(
                 let glyph = if copied.get() { Glyph::Tick } else { Glyph::Copy };
                 view! { <Icon glyph /> }
             }}
-            <span class:unseen=icon_only>{shown}</span>
+            <span class:unseen=icon_only>{move || shown()}</span>
         </button>
     }
 }

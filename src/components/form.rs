@@ -162,7 +162,7 @@ fn group(entry: Signal<Entry>, within_list: bool) -> impl IntoView {
     // A group of nothing has nothing to say.
     view! {
         <fieldset class="group" hidden=move || within.with(Vec::is_empty)>
-            <legend>{shown}</legend>
+            <legend>{move || shown()}</legend>
             {(!note.is_empty() && !within_list).then(|| view! { <p class="note">{note}</p> })}
             {level(within.into(), within_list)}
         </fieldset>
@@ -196,7 +196,7 @@ fn list(entry: Signal<Entry>) -> impl IntoView {
     };
     let (label, note) = entry.with_untracked(|entry| (entry.label().sentence(), entry.spec.note));
     view! {
-        <fieldset class="list" class:long=is_long>
+        <fieldset class="list" class:long=move || is_long()>
             <legend>
                 {label} " " <small>{move || length.get().to_string()}</small>
             </legend>
@@ -391,7 +391,7 @@ fn choice(entry: Signal<Entry>, spec: &'static Spec, id: String, edit: Callback<
             class="select"
             on:change=move |event| edit.run(Edit::Enter(event_target_value(&event)))
         >
-            {other}
+            {move || other()}
             {spec.names.iter().map(option).collect_view()}
         </select>
     }

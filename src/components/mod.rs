@@ -1,8 +1,10 @@
 //! Parts that several views use, one file each.
 
+pub mod button;
 pub mod byte_strip;
 pub mod causes;
 pub mod check_result;
+pub mod choose;
 pub mod chosen_byte;
 pub mod combobox;
 pub mod copy_as;

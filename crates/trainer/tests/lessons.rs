@@ -116,7 +116,7 @@ fn wrong(step: &Step, exercise: &Exercise) -> Vec<Answer> {
             (0..choices.len()).filter(|at| at != right).map(Answer::Choice).collect()
         }
         Ask::Number { wrong, .. } => {
-            let own = wrong.iter().map(|(value, _)| Answer::Text(value.to_string()));
+            let own = wrong.iter().map(|own| Answer::Text(own.answer.clone()));
             own.chain([Answer::Text("1".to_owned())]).collect()
         }
         Ask::Point { .. } => {
@@ -238,6 +238,18 @@ fn no_text_is_too_strange() {
     read(&"## b\n".repeat(100_000));
 }
 
+/// Digits that would be right as hex are another number; what says itself that it is hex is right.
+#[test]
+fn what_is_wrong_as_digits_may_be_right_as_hex() {
+    let text = "# T\nkey: t\n## S\ntask: what\nnumber: 200 in hex\nwrong: 200 | That is decimal.\n";
+    let (lesson, mistakes) = read(text);
+    assert_eq!((mistakes, lesson.mistakes()), (Vec::new(), Vec::new()));
+    let step = &lesson.steps[0];
+    let graded = |text: &str| step.exercise.as_ref().unwrap().grade(step, &Answer::Text(text.to_owned()));
+    assert!(graded("00C8h").is_right() && graded("C8").is_right());
+    assert_eq!(graded("200").remarks()[0].text.sentence(), "That is decimal.");
+}
+
 /// Each mistake says what was expected.
 #[test]
 fn a_mistake_is_told_with_its_line() {
@@ -251,6 +263,10 @@ fn a_mistake_is_told_with_its_line() {
         ("hint: look", 5, "belongs to a task"),
         ("task: what\nhint: look", 5, "The task needs what is right"),
         ("task: what\nright: a\nwrong: b", 7, "who is wrong wants to know why"),
+        ("task: what\nright: a\nwrong: b | no\nwrong: a | no", 8, "“a” is the right answer"),
+        ("task: what\nnumber: 10\nwrong: 4 | no\nwrong: 0Ah | no", 8, "“0Ah” is the right answer"),
+        ("task: what\nnumber: Quantity\nwrong: 3 | no", 7, "“3” is the right answer"),
+        ("task: what\npoint: Quantity\nwrong: Quantity | no", 7, "“Quantity” is the right answer"),
         ("task: what\nnumber: Colour", 5, "no field"),
         ("task: what\nbuild: 01 03 00 C8 00 03 84 36", 5, "no telegram with a valid checksum"),
         ("device: telex", 5, "Known are: "),

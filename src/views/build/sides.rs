@@ -34,7 +34,7 @@ fn Side(#[prop(into)] shown: Signal<Option<Shown>>, lights: Lights, children: Ch
         <h3 class="said">{said}</h3>
         <ByteStrip blocks lights size="small" />
         <div class="actions">{children()}</div>
-        {problems}
+        {move || problems()}
         <FieldTable rows lights label="Fields" />
     }
 }
@@ -92,7 +92,7 @@ pub fn RequestSide() -> impl IntoView {
             </section>
         </Show>
         <Show when=move || shown.with(Option::is_some)>
-            <section class="side" class:stale=stale aria-label="Request">
+            <section class="side" class:stale=move || stale() aria-label="Request">
                 <header>
                     <span aria-hidden="true">"→"</span>
                     <b>"Request"</b>
@@ -139,7 +139,7 @@ pub fn ReplySide() -> impl IntoView {
         let here = move || state.reply.get() == index;
         let is_stop = move || state.reply.get().max(1) == index;
         view! {
-            <li class:chosen=here>
+            <li class:chosen=move || here()>
                 <button
                     type="button"
                     tabindex=move || if is_stop() { "0" } else { "-1" }
@@ -154,7 +154,7 @@ pub fn ReplySide() -> impl IntoView {
     };
     view! {
         <Show when=move || shown.with(Option::is_some)>
-            <section class="side" class:stale=stale aria-label="Reply">
+            <section class="side" class:stale=move || stale() aria-label="Reply">
                 <header>
                     <span aria-hidden="true">"←"</span>
                     <b>"Reply"</b>
@@ -212,7 +212,7 @@ pub fn Dock() -> impl IntoView {
     view! {
         <aside class="dock" class:stale=move || built.with(Built::is_stale) aria-label="Bytes of what is edited">
             <p>
-                <b>{name}</b>
+                <b>{move || name()}</b>
                 <span>{length(shown)}</span>
                 <Show when=move || built.with(Built::is_stale)>
                     <span class="state warn">"last valid"</span>

@@ -79,7 +79,7 @@ pub fn Algorithms() -> impl IntoView {
             }
         });
         view! {
-            <tr class:chosen=followed>
+            <tr class:chosen=move || followed()>
                 <th scope="row">
                     {name} <small>{checksum.used_by}</small>
                 </th>
@@ -93,7 +93,7 @@ pub fn Algorithms() -> impl IntoView {
         <div class="part">
             <h3>"The same bytes by other algorithms"</h3>
             <table class="table" aria-label="The same bytes by other algorithms">
-                <tbody>{rows}</tbody>
+                <tbody>{move || rows()}</tbody>
             </table>
             <p class="note">{move || work.with(|work| conclusion(&comparisons(work)))}</p>
         </div>

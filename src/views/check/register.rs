@@ -115,7 +115,7 @@ pub fn Why() -> impl IntoView {
             </p>
         })
     };
-    view! { {why} }
+    view! { {move || why()} }
 }
 
 /// What such a check is worth, whatever step is shown.

@@ -82,7 +82,7 @@ pub fn Bytes() -> impl IntoView {
             on:keydown=keys
         >
             <For each=bytes key=|byte| *byte children=byte />
-            {check}
+            {move || check()}
         </ol>
     }
 }
@@ -236,7 +236,7 @@ pub fn StepList() -> impl IntoView {
         let here = move || state.at() == at;
         let within = move || steps.with(|steps| steps.iter().any(|(other, _)| *other == state.at()));
         view! {
-            <tr class:chosen=here>
+            <tr class:chosen=move || here()>
                 <td class="soft number">{at}</td>
                 <th scope="row">
                     <button
@@ -255,7 +255,7 @@ pub fn StepList() -> impl IntoView {
     let kind = move || work.with(|work| (work.algorithm.kind, work.bytes.clone()));
     view! {
         <div class="part">
-            <h3>{title}</h3>
+            <h3>{move || title()}</h3>
             <div class="scroll">
                 <table class="table" aria-label=title on:keydown=keys>
                     <tbody node_ref=list>

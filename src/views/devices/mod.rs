@@ -234,7 +234,7 @@ fn Changes() -> impl IntoView {
                     "Reset all"
                 </button>
             </div>
-            {kept}
+            {move || kept()}
             <div class="actions">
                 <button
                     type="button"

@@ -72,7 +72,7 @@ pub fn Units() -> impl IntoView {
         <section class="units" aria-labelledby="devices-units">
             <h3 id="devices-units">"Units and their devices"</h3>
             <p class="note">
-                {sentence}
+                {move || sentence()}
                 " A unit that has no device here is read as the one that is chosen in Read or Build."
             </p>
             <table class="table" aria-label="Units and their devices">

@@ -4,6 +4,7 @@ use leptos::prelude::*;
 
 use super::attempt::Attempt;
 use super::words::Words;
+use crate::components::button::Button;
 use crate::components::byte_strip::{Block, Chosen, Lights};
 use crate::components::icon::{Glyph, Icon};
 use buslens::field::{Span, count, hex};
@@ -256,7 +257,7 @@ pub fn Hints(answering: Answering, hints: Vec<String>) -> AnyView {
     let hint =
         |text: &String| view! { <li><Icon glyph=Glyph::Hint /><span><Words text=text.clone() /></span></li> };
     let rows = move || hints.iter().take(shown.get()).map(hint).collect_view();
-    view! { <ol class="hints" aria-label="Hints" aria-live="polite">{rows}</ol> }.into_any()
+    view! { <ol class="hints" aria-label="Hints" aria-live="polite">{move || rows()}</ol> }.into_any()
 }
 
 /// Who gave so many wrong answers need not go through all hints.
@@ -274,28 +275,22 @@ pub fn Help(
 ) -> AnyView {
     let hints =
         move || answering.attempt.with(|attempt| if attempt.is_over() { count } else { attempt.hints });
-    let told = move || hints() >= count;
-    let answer = move || {
+    let unasked = move || {
         let attempt = answering.attempt.get();
-        !attempt.is_over() && (attempt.hints >= count || attempt.wrong >= STUCK)
+        attempt.is_over() || attempt.hints < count && attempt.wrong < STUCK
     };
     let next = move || match hints() {
         0 => "Give me a hint".to_owned(),
         shown => format!("Another hint, {} of {count}", shown + 1),
     };
     view! {
-        <button
-            type="button"
-            class="button"
-            hidden=told
-            on:click=move |_| answering.change(|attempt| attempt.hints += 1)
-        >
-            <Icon glyph=Glyph::Hint />
-            {next}
-        </button>
-        <button type="button" class="button plain" hidden=move || !answer() on:click=move |_| on_answer.run(())>
-            {label}
-        </button>
+        <Button
+            glyph=Glyph::Hint
+            label=Signal::derive(next)
+            hidden=Signal::derive(move || hints() >= count)
+            on_press=move |()| answering.change(|attempt| attempt.hints += 1)
+        />
+        <Button class="button plain" label hidden=Signal::derive(unasked) on_press=on_answer />
     }
     .into_any()
 }

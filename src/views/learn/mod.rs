@@ -4,8 +4,10 @@ mod answer;
 mod attempt;
 mod gallery;
 mod lessons;
+mod mistakes;
 mod practice;
 mod reference;
+mod search;
 mod state;
 mod words;
 
@@ -34,7 +36,7 @@ pub fn Learn() -> impl IntoView {
         <div class="learn">
             <h2 class="unseen">"Learn"</h2>
             <Segments label="Part of Learn" options=parts value=part on_choose=Callback::new(move |part| state.turn_to(part)) />
-            {shown}
+            {move || shown()}
         </div>
     }
 }

@@ -110,7 +110,7 @@ pub fn PassOn(
                     />
                 </label>
             </fieldset>
-            {made}
+            {move || made()}
             <footer>
                 <Show
                     when=move || ready.get()

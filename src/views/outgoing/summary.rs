@@ -71,8 +71,8 @@ pub fn Summary(
     };
     view! {
         <Dialog open title="Summary for a mail" class="drawer">
-            {said}
-            {shown}
+            {move || said()}
+            {move || shown()}
             <footer>
                 <label class="tick">
                     <input

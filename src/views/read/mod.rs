@@ -73,7 +73,7 @@ pub fn Read() -> impl IntoView {
                     "A part of Buslens could not be loaded: check the connection. Telegrams can be read one by one, without examples, possible causes and proposals."
                 </CouldNotLoad>
             </Show>
-            {below}
+            {move || below()}
         </div>
     }
 }

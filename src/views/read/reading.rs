@@ -4,6 +4,7 @@ use leptos::prelude::*;
 
 use super::ReadState;
 use super::state::Mode;
+use crate::components::choose::{Choose, choices};
 use buslens::field::{Direction, count, grouped, many};
 use buslens::tool::log::{Seen, seen};
 use buslens::tool::{PROFILES, PROTOCOLS, Report, proposals};
@@ -138,10 +139,13 @@ fn protocol_name(report: &Report) -> &'static str {
 #[component]
 pub fn ReadingChoices() -> impl IntoView {
     let read = expect_context::<ReadState>();
-    let devices = PROFILES.iter().map(|it| (it.key, it.label)).collect();
-    let protocols = PROTOCOLS.iter().map(|it| (it.key, it.label)).collect();
+    let devices = choices(PROFILES.iter().map(|it| (it.key, it.label)));
+    let protocols = choices(PROTOCOLS.iter().map(|it| (it.key, it.label)));
     let directions = || {
-        vec![(Direction::Request.key(), "All are requests"), (Direction::Response.key(), "All are responses")]
+        choices([
+            (Direction::Request.key(), "All are requests"),
+            (Direction::Response.key(), "All are responses"),
+        ])
     };
     view! {
         <div class="reading-choices">
@@ -169,42 +173,5 @@ pub fn ReadingChoices() -> impl IntoView {
                 />
             </Show>
         </div>
-    }
-}
-
-/// A small list with its name before it.
-#[component]
-pub fn Choose(
-    label: &'static str,
-    /// What counts where nobody chooses.
-    otherwise: &'static str,
-    /// Keys and labels.
-    options: Vec<(&'static str, &'static str)>,
-    value: Signal<String>,
-    on_choose: Callback<String>,
-) -> impl IntoView {
-    let options: Vec<_> = options
-        .into_iter()
-        .map(|(key, label)| {
-            view! {
-                <option value=key prop:selected=move || value.get() == key>
-                    {label}
-                </option>
-            }
-        })
-        .collect();
-    view! {
-        <label class="choose">
-            <span>{label}</span>
-            <select
-                class="select low"
-                on:change=move |event| on_choose.run(event_target_value(&event))
-            >
-                <option value="" prop:selected=move || value.with(String::is_empty)>
-                    {otherwise}
-                </option>
-                {options}
-            </select>
-        </label>
     }
 }

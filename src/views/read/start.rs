@@ -26,7 +26,7 @@ pub fn Welcome() -> impl IntoView {
     };
     view! {
         <section class="welcome">
-            {missing} <h2>"Paste what the bus said. Read what it means."</h2>
+            {move || missing()} <h2>"Paste what the bus said. Read what it means."</h2>
             <p>
                 "Every byte explained, every checksum verified, every fault named, in the words of the device's manual."
             </p>

@@ -77,7 +77,7 @@ fn Lead() -> impl IntoView {
     };
     view! {
         <section class="lead">
-            <div>{said}</div>
+            <div>{move || said()}</div>
             <div class="acts">
                 <LaterPiece piece=Piece::CopyAs />
                 <a class="button" href=move || read.shown().map(|shown| href(View::Build, &shown.link()))>

@@ -73,14 +73,14 @@ pub fn Paper(
     };
     view! {
         <article class="paper" aria-label="What is printed">
-            {head}
+            {move || head()}
             <Show
                 when=move || count.get() != 0 || is_log.get()
                 fallback=|| view! { <p>"Nothing to print yet. Paste telegrams in Read first."</p> }
             >
-                {short}
-                {table}
-                {details}
+                {move || short()}
+                {move || table()}
+                {move || details()}
             </Show>
             <footer>"Made with Buslens"</footer>
         </article>

@@ -185,13 +185,20 @@ fn byte(telegram: &Telegram, right: &Telegram, at: Span, chosen: usize) -> Verdi
     Verdict::wrong(Remark::new(&label, text).at(span))
 }
 
-/// A field within a sentence, with "the" where it wants one: the quantity, register 201.
+/// A field within a sentence, with "the" where it wants one: the quantity, register 201, the field “groups”.
 fn the(label: &str) -> String {
     match label {
         "Not used" => "what is not used".to_owned(),
         _ if label.ends_with(|last: char| last.is_ascii_digit()) => small(label),
+        _ if is_of_several(label) => format!("the field “{}”", small(label)),
         _ => format!("the {}", small(label)),
     }
+}
+
+/// Whether a label names several things: what follows speaks of one field.
+fn is_of_several(label: &str) -> bool {
+    let head = label.split(" of ").next().unwrap_or_default();
+    head.ends_with('s') && !["ss", "us", "is"].iter().any(|end| head.ends_with(end))
 }
 
 /// A label within a sentence; abbreviations stay as they are.
@@ -202,5 +209,27 @@ fn small(label: &str) -> String {
             std::iter::once(first.to_ascii_lowercase()).chain(label.chars().skip(1)).collect()
         }
         _ => label.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fields_stand_in_sentences() {
+        for (label, said) in [
+            ("Quantity", "the quantity"),
+            ("Register 201", "register 201"),
+            ("CRC", "the CRC"),
+            ("Groups", "the field “groups”"),
+            ("Digital inputs", "the field “digital inputs”"),
+            ("Length of inputs", "the length of inputs"),
+            ("Starting address", "the starting address"),
+            ("Exception status", "the exception status"),
+            ("Not used", "what is not used"),
+        ] {
+            assert_eq!(the(label), said);
+        }
     }
 }

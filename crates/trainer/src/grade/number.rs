@@ -5,7 +5,7 @@ use buslens::message;
 use buslens::tool::parse_value;
 
 use super::slip::Slip;
-use super::{Remark, Verdict, small};
+use super::{Remark, Verdict, the};
 use crate::notation::{self, Notation, Written};
 use crate::task::Number;
 
@@ -144,7 +144,7 @@ fn float(wanted: &Number, written: &Written) -> Verdict {
 
 /// A whole number, and which slip it looks like.
 fn wrong(wanted: &Number, given: Option<u64>) -> Verdict {
-    let label = if wanted.label.is_empty() { "number".to_owned() } else { small(&wanted.label) };
+    let label = if wanted.label.is_empty() { "the number".to_owned() } else { the(&wanted.label) };
     let key = wanted.spec.map_or("", |spec| spec.key);
     let slip = given.and_then(|given| Slip::find(wanted.raw, given, wanted.width, wanted.role, key));
     let scaled = |given: u64| {
@@ -154,7 +154,7 @@ fn wrong(wanted: &Number, given: Option<u64>) -> Verdict {
     };
     let text = match (slip, given) {
         (Some(slip), _) => message!(
-            "the {label} {what}: {why}",
+            "{label} {what}: {why}",
             label = label,
             what = Argument::Term(slip.what()),
             why = Argument::Term(slip.why())
@@ -177,12 +177,12 @@ fn wrong(wanted: &Number, given: Option<u64>) -> Verdict {
         }
         _ => match wanted.role {
             Role::Address => {
-                message!("the {label} is another one: it is in the bytes that say where", label = label)
+                message!("{label} is another one: it is in the bytes that say where", label = label)
             }
             Role::Count => {
-                message!("the {label} is another one: it is in the bytes that say how many", label = label)
+                message!("{label} is another one: it is in the bytes that say how many", label = label)
             }
-            _ => message!("the {label} is another one", label = label),
+            _ => message!("{label} is another one", label = label),
         },
     };
     remark(wanted, text)

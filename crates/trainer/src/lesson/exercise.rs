@@ -29,9 +29,9 @@ pub enum Ask {
     /// One of some sentences is right.
     Choose { choices: Vec<Choice>, right: usize },
     /// A number, or the value of a field of the step's telegrams; some wrong ones have a remark of their own.
-    Number { value: String, wrong: Vec<(u64, String)> },
+    Number { value: String, wrong: Vec<Wrong> },
     /// The field of the step's last telegram that is to be found.
-    Point { field: String, wrong: Vec<(String, String)> },
+    Point { field: String, wrong: Vec<Wrong> },
     /// Fields of a telegram that are blank.
     Blank { telegram: String, fields: Vec<String> },
     /// A telegram from nothing.
@@ -40,6 +40,15 @@ pub enum Ask {
     Repair { damaged: String, telegram: String },
     /// Bits that are to be set.
     Bits { from: Vec<u8>, to: Vec<u8>, reading: Reading },
+}
+
+/// A wrong answer that has a remark of its own.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Wrong {
+    /// A number, or a field.
+    pub answer: String,
+    pub remark: String,
+    pub line: usize,
 }
 
 /// What bits are read as while they are set.
@@ -73,16 +82,23 @@ impl Exercise {
             (Ask::Number { .. }, Answer::Text(text)) if let Some(number) = without_counted(text) => {
                 self.grade(step, &Answer::Text(number.to_owned()))
             }
-            (Ask::Number { wrong, .. }, Answer::Text(text))
-                if let Ok(written) = notation::read(text, 8, Format::Decimal, Notation::Any)
-                    && let Some((_, said)) = wrong.iter().find(|(value, _)| *value == written.raw) =>
-            {
-                wrong_with("", message!("{said}", said = step.filled_in(said)), None)
+            _ => {
+                let Some(task) = self.task(step) else {
+                    return Verdict::Unread(message!("there is no answer to this"));
+                };
+                let verdict = grade(&task, answer);
+                match (&self.ask, answer) {
+                    (Ask::Number { wrong, .. }, Answer::Text(text))
+                        if !verdict.is_right()
+                            && let Some(given) = numbered(text)
+                            && let Some(own) =
+                                wrong.iter().find(|it| numbered(&it.answer) == Some(given)) =>
+                    {
+                        wrong_with("", message!("{said}", said = step.filled_in(&own.remark)), None)
+                    }
+                    _ => verdict,
+                }
             }
-            _ => match self.task(step) {
-                Some(task) => grade(&task, answer),
-                None => Verdict::Unread(message!("there is no answer to this")),
-            },
         }
     }
 
@@ -164,12 +180,26 @@ impl Exercise {
         })
     }
 
+    /// Whether an answer that stands among the wrong ones is right.
+    fn is_right(&self, step: &Step, answer: &str) -> bool {
+        match &self.ask {
+            Ask::Point { field: name, .. } => {
+                let report = step.report();
+                let detail = report.telegrams.len().checked_sub(1).and_then(|last| report.detail(last));
+                let span = |name: &str| Some(field(detail.as_ref()?, name)?.span);
+                span(answer).zip(span(name)).is_some_and(|(own, right)| own == right)
+            }
+            _ => self.grade(step, &Answer::Text(answer.to_owned())).is_right(),
+        }
+    }
+
     /// What is said of answers that are wrong.
     fn remarks(&self) -> Vec<&String> {
         match &self.ask {
             Ask::Choose { choices, .. } => choices.iter().map(|choice| &choice.remark).collect(),
-            Ask::Number { wrong, .. } => wrong.iter().map(|(_, said)| said).collect(),
-            Ask::Point { wrong, .. } => wrong.iter().map(|(_, said)| said).collect(),
+            Ask::Number { wrong, .. } | Ask::Point { wrong, .. } => {
+                wrong.iter().map(|own| &own.remark).collect()
+            }
             _ => Vec::new(),
         }
     }
@@ -184,6 +214,11 @@ impl Exercise {
                 ));
             }
         }
+        if let Ask::Number { wrong, .. } | Ask::Point { wrong, .. } = &self.ask {
+            let right = wrong.iter().filter(|own| self.is_right(step, &own.answer));
+            found.extend(right.map(|own| right_itself(&own.answer, own.line)));
+        }
+        let mut say = |said: String| found.push(Mistake { line: self.line, said });
         let last = report.telegrams.len().checked_sub(1).and_then(|last| report.detail(last));
         match &self.ask {
             Ask::Choose { .. } => {}
@@ -194,7 +229,7 @@ impl Exercise {
             }
             Ask::Point { field: name, wrong } => match last {
                 Some(detail) => {
-                    let all = std::iter::once(name).chain(wrong.iter().map(|(name, _)| name));
+                    let all = std::iter::once(name).chain(wrong.iter().map(|own| &own.answer));
                     all.filter(|name| field(&detail, name).is_none())
                         .for_each(|name| say(unknown(name, &names(&detail))));
                 }
@@ -232,6 +267,17 @@ impl Exercise {
             }
         }
     }
+}
+
+/// Nobody would ever see why it is wrong.
+pub(super) fn right_itself(answer: &str, line: usize) -> Mistake {
+    let said = format!("“{answer}” is the right answer, and stands here as a wrong one: take the line out.");
+    Mistake { line, said }
+}
+
+/// A whole number as people write it: 200, 0xC8, C8h.
+pub(super) fn numbered(text: &str) -> Option<u64> {
+    notation::read(text, 8, Format::Decimal, Notation::Any).ok().map(|written| written.raw)
 }
 
 /// The number in front of what is counted: 21 of "21 ms".
@@ -286,7 +332,7 @@ fn number(step: &Step, value: &str) -> Option<Number> {
 }
 
 /// Whether the byte that somebody pointed at is of the field that was meant.
-fn point(step: &Step, name: &str, wrong: &[(String, String)], at: usize) -> Verdict {
+fn point(step: &Step, name: &str, wrong: &[Wrong], at: usize) -> Verdict {
     let report = step.report();
     let last = report.telegrams.len().saturating_sub(1);
     let Some(detail) = report.detail(last) else {
@@ -295,7 +341,7 @@ fn point(step: &Step, name: &str, wrong: &[(String, String)], at: usize) -> Verd
     if field(&detail, name).is_some_and(|field| field.span.contains(at)) {
         return Verdict::Right(None);
     }
-    let own = wrong.iter().filter_map(|(name, said)| Some((field(&detail, name)?, said)));
+    let own = wrong.iter().filter_map(|own| Some((field(&detail, &own.answer)?, &own.remark)));
     if let Some((field, said)) = own.into_iter().find(|(field, _)| field.span.contains(at)) {
         let label = field.label().to_string();
         return wrong_with(&label, message!("{said}", said = step.filled_in(said)), Some(field.span));

@@ -1,12 +1,11 @@
 //! The text of a lesson, line by line. Reading never fails: what cannot be understood is a [`Mistake`], and all
 //! else is there.
 
-use buslens::field::{Format, Span, in_order};
+use buslens::field::{Span, in_order};
 use buslens::tool::{PROFILES, PROTOCOLS, Profile, Protocol, steps::bytes};
 
-use super::exercise::{Ask, Exercise, Reading};
+use super::exercise::{Ask, Exercise, Reading, Wrong, numbered, right_itself};
 use super::{Lesson, Mistake, Place, Remark, Show, Statement, Step, Telegram};
-use crate::notation::{self, Notation};
 use crate::task::Choice;
 
 /// Longer lines hold no sentence that anybody reads.
@@ -311,9 +310,12 @@ impl Reader {
     fn end_task(&mut self) {
         let Some(draft) = self.exercise.take() else { return };
         let Draft { question, asked, hints, wrong, right, then, line } = draft;
+        let own = |(answer, remark, line)| Wrong { answer, remark, line };
         let ask = match asked {
             None if right.len() == 1 && !wrong.is_empty() => {
                 let right = right.concat();
+                let twice = wrong.iter().filter(|(text, ..)| *text == right);
+                self.mistakes.extend(twice.map(|(text, _, at)| right_itself(text, *at)));
                 let mut choices: Vec<Choice> =
                     wrong.into_iter().map(|(text, remark, _)| Choice { text, remark }).collect();
                 choices.push(Choice { text: right.clone(), remark: String::new() });
@@ -323,18 +325,13 @@ impl Reader {
                 Some(Ask::Choose { choices, right })
             }
             Some(Ask::Number { value, .. }) if right.is_empty() => {
-                let mut known = Vec::new();
-                for (text, remark, at) in wrong {
-                    match numbered(&text) {
-                        Some(number) => known.push((number, remark)),
-                        None => self.say(at, format!("“{text}” is no number, such as 200, 0x00C8 or 00C8h.")),
-                    }
+                for (text, _, at) in wrong.iter().filter(|(text, ..)| numbered(text).is_none()) {
+                    self.say(*at, format!("“{text}” is no number, such as 200, 0x00C8 or 00C8h."));
                 }
-                Some(Ask::Number { value, wrong: known })
+                Some(Ask::Number { value, wrong: wrong.into_iter().map(own).collect() })
             }
             Some(Ask::Point { field, .. }) if right.is_empty() => {
-                let wrong = wrong.into_iter().map(|(name, remark, _)| (name, remark)).collect();
-                Some(Ask::Point { field, wrong })
+                Some(Ask::Point { field, wrong: wrong.into_iter().map(own).collect() })
             }
             Some(ask) if right.is_empty() && wrong.is_empty() => Some(ask),
             _ => None,
@@ -407,11 +404,6 @@ fn show(word: &str) -> Option<Show> {
                 .filter(|rate| (300..=12_000_000).contains(rate))?,
         ),
     })
-}
-
-/// A whole number as people write it: 200, 0xC8, C8h.
-fn numbered(text: &str) -> Option<u64> {
-    notation::read(text, 8, Format::Decimal, Notation::Any).ok().map(|written| written.raw)
 }
 
 fn bits(value: &str) -> Option<Ask> {

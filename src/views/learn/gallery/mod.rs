@@ -4,8 +4,11 @@ use std::sync::LazyLock;
 
 use leptos::prelude::*;
 
+use super::search::Search;
 use super::state::{LearnState, Part};
 use crate::address::{View, href};
+use crate::components::button::Button;
+use crate::components::choose::{Choose, choices};
 use crate::components::icon::{Glyph, Icon};
 use buslens::field::{Direction, count, hex};
 use buslens::tool::gallery::{Said, Sample, Slip, samples};
@@ -138,17 +141,21 @@ fn key_of(sample: &Sample) -> &'static str {
 pub fn Gallery() -> impl IntoView {
     let state = expect_context::<LearnState>();
     let narrowed = Memo::new(move |_| Narrowed::of(&state.place(Part::Gallery)));
-    let choose = move |change: fn(&mut Narrowed, String)| {
-        move |event| {
+    // A list that narrows `part` of it.
+    let list = move |label, otherwise, options, part: fn(&mut Narrowed) -> &mut String| {
+        let value = Signal::derive(move || part(&mut narrowed.get()).clone());
+        let on_choose = Callback::new(move |key| {
             let mut to = narrowed.get_untracked();
-            change(&mut to, event_target_value(&event));
+            *part(&mut to) = key;
             state.go_to(Part::Gallery, to.place());
-        }
+        });
+        view! { <Choose label otherwise options value on_choose /> }
     };
-    let typed = move |event| {
-        let to = Narrowed { typed: event_target_value(&event), ..narrowed.get_untracked() };
+    let typed = Signal::derive(move || narrowed.with(|narrowed| narrowed.typed.clone()));
+    let on_type = Callback::new(move |typed| {
+        let to = Narrowed { typed, ..narrowed.get_untracked() };
         state.type_to(Part::Gallery, to.place());
-    };
+    });
     let found = Memo::new(move |_| {
         narrowed.with(|narrowed| {
             let all = SAMPLES.iter().enumerate();
@@ -163,21 +170,20 @@ pub fn Gallery() -> impl IntoView {
             functions.insert(at, (function, &said.kind));
         }
     }
-    let option = move |of: fn(&Narrowed) -> &String, key: String, label: String| {
-        let own = key.clone();
-        view! {
-            <option value=key prop:selected=move || narrowed.with(|narrowed| *of(narrowed) == own)>
-                {label}
-            </option>
-        }
+    let manuals = MANUALS.map(|(key, _, label)| (key, label));
+    let manuals = choices(manuals.into_iter().chain([(STANDARDS, "Standards")]));
+    let functions = functions.into_iter().map(|(code, label)| (code.to_string(), format!("{code}: {label}")));
+    let clear = move |()| state.go_to(Part::Gallery, String::new());
+    let none = move || {
+        found.with(Vec::is_empty).then(|| {
+            view! {
+                <p class="nothing">
+                    "No telegram is like that. " <Button class="link" label="Show all" on_press=clear />
+                </p>
+            }
+            .into_any()
+        })
     };
-    let manuals = MANUALS.map(|(key, _, label)| (key, label)).into_iter().chain([(STANDARDS, "Standards")]);
-    let manuals = manuals.map(|(key, label)| option(|it| &it.manual, key.to_owned(), label.to_owned()));
-    let kinds = KINDS.map(|(key, label)| option(|it| &it.kind, key.to_owned(), label.to_owned()));
-    let functions = functions
-        .into_iter()
-        .map(|(code, label)| option(|it| &it.function, code.to_string(), format!("{code}: {label}")));
-    let clear = move |_| state.go_to(Part::Gallery, String::new());
     view! {
         <section class="gallery" aria-label="Telegrams">
             <header>
@@ -188,50 +194,19 @@ pub fn Gallery() -> impl IntoView {
                 </p>
             </header>
             <div class="tools" role="search" aria-label="Telegrams">
-                <label class="search">
-                    <Icon glyph=Glyph::Search />
-                    <span class="unseen">"Words or bytes of a telegram"</span>
-                    <input
-                        type="search"
-                        autocomplete="off"
-                        spellcheck="false"
-                        placeholder="Words or bytes, such as: limit, or 00 C8"
-                        prop:value=move || narrowed.with(|narrowed| narrowed.typed.clone())
-                        on:input=typed
-                    />
-                </label>
-                <label class="choose">
-                    <span>"Of"</span>
-                    <select class="select low" on:change=choose(|to, key| to.manual = key)>
-                        {option(|it| &it.manual, String::new(), "all manuals".to_owned())}
-                        {manuals.collect_view()}
-                    </select>
-                </label>
-                <label class="choose">
-                    <span>"Kind"</span>
-                    <select class="select low" on:change=choose(|to, key| to.kind = key)>
-                        {option(|it| &it.kind, String::new(), "all".to_owned())}
-                        {kinds.into_iter().collect_view()}
-                    </select>
-                </label>
-                <label class="choose">
-                    <span>"Function"</span>
-                    <select class="select low" on:change=choose(|to, key| to.function = key)>
-                        {option(|it| &it.function, String::new(), "all".to_owned())}
-                        {functions.collect_view()}
-                    </select>
-                </label>
+                <Search
+                    label="Words or bytes of a telegram"
+                    placeholder="Words or bytes, such as: limit, or 00 C8"
+                    typed
+                    on_type
+                />
+                {list("Of", "all manuals", manuals, |it| &mut it.manual)}
+                {list("Kind", "all", choices(KINDS), |it| &mut it.kind)}
+                {list("Function", "all", functions.collect(), |it| &mut it.function)}
                 <span class="end" role="status">{move || count(found.with(Vec::len), "telegram")}</span>
             </div>
             {move || groups(&found.get())}
-            <Show when=move || found.with(Vec::is_empty)>
-                <p class="nothing">
-                    "No telegram is like that. "
-                    <button type="button" class="link" on:click=clear>
-                        "Show all"
-                    </button>
-                </p>
-            </Show>
+            {move || none()}
         </section>
     }
 }

@@ -5,6 +5,7 @@ use leptos::prelude::*;
 use super::files::Files;
 use super::onward::way;
 use super::state::{Course, Here, LessonsState, link_to};
+use crate::components::button::Button;
 use crate::components::icon::{Glyph, Icon};
 use crate::views::learn::LearnState;
 
@@ -119,14 +120,12 @@ pub fn Overview() -> impl IntoView {
         let removable = course.own.then(|| {
             let course = course.clone();
             view! {
-                <button
-                    type="button"
+                <Button
                     class="button low plain icon-only"
-                    aria-label=format!("Remove “{title}”")
-                    on:click=move |_| state.remove(&course)
-                >
-                    <Icon glyph=Glyph::Close />
-                </button>
+                    glyph=Glyph::Close
+                    label=format!("Remove “{title}”")
+                    on_press=move |()| state.remove(&course)
+                />
             }
         });
         let far = move || match (state.count(&lesson), lesson.steps.len()) {
@@ -140,7 +139,7 @@ pub fn Overview() -> impl IntoView {
                     <Sign number course />
                     <b>{title}</b>
                     <span class="about">{about}</span>
-                    <span class="far">{far}</span>
+                    <span class="far">{move || far()}</span>
                 </a>
                 {removable}
             </li>
@@ -153,9 +152,9 @@ pub fn Overview() -> impl IntoView {
                 <h2 tabindex="-1">"Field buses, byte by byte"</h2>
                 <p>
                     "Short lessons on real telegrams. In each you first look, then fill in, then build, then mend one that is damaged. "
-                    {so_far}
+                    {move || so_far()}
                 </p>
-                {go_on}
+                {move || go_on()}
             </header>
             {move || groups(state, &entry)}
             <Files />

@@ -66,7 +66,7 @@ pub fn Exercise(here: Here) -> impl IntoView {
                 </h3>
                 <form on:submit=submit>
                     {form}
-                    <div role="status">{outcome}</div>
+                    <div role="status">{move || outcome()}</div>
                     <div class="actions">
                         <button type="submit" class="button" class:main=move || !attempt.with(Attempt::is_over)>
                             "Check my answer"

@@ -2,16 +2,18 @@
 
 use leptos::prelude::*;
 
-use super::state::{MOST_MISTAKES, Refused};
 use crate::browser::file;
-use crate::components::icon::{Glyph, Icon};
+use crate::components::button::Button;
+use crate::components::icon::Glyph;
 use crate::components::open_file::OpenFile;
 use crate::views::learn::LearnState;
+use crate::views::learn::mistakes::Mistakes;
 
 #[component]
 pub fn Files() -> impl IntoView {
     let state = expect_context::<LearnState>().lessons;
-    let nothing = move || state.progress.with(|progress| progress.is_empty());
+    let nothing = Signal::derive(move || state.progress.with(|progress| progress.is_empty()));
+    let save = move |()| file::save("buslens-lessons.txt", &state.progress.with_untracked(|it| it.write()));
     view! {
         <section class="files" aria-label="Files">
             <p class="note">
@@ -24,21 +26,8 @@ pub fn Files() -> impl IntoView {
                     accept=".txt,text/plain"
                     on_open=Callback::new(move |file| state.open(file))
                 />
-                <button
-                    type="button"
-                    class="button"
-                    disabled=nothing
-                    on:click=move |_| {
-                        file::save("buslens-lessons.txt", &state.progress.with_untracked(|it| it.write()))
-                    }
-                >
-                    <Icon glyph=Glyph::Save />
-                    "Save my progress"
-                </button>
-                <button type="button" class="button" disabled=nothing on:click=move |_| state.forget()>
-                    <Icon glyph=Glyph::Undo />
-                    "Begin anew"
-                </button>
+                <Button glyph=Glyph::Save label="Save my progress" disabled=nothing on_press=save />
+                <Button glyph=Glyph::Undo label="Begin anew" disabled=nothing on_press=move |()| state.forget() />
             </div>
         </section>
     }
@@ -47,39 +36,7 @@ pub fn Files() -> impl IntoView {
 /// Why a file is no lesson.
 #[component]
 pub fn Refusal() -> impl IntoView {
-    let state = expect_context::<LearnState>().lessons;
-    let shown = move |Refused { name, mistakes }: Refused| {
-        let more = mistakes.len().saturating_sub(MOST_MISTAKES);
-        let rows: Vec<_> = mistakes
-            .into_iter()
-            .take(MOST_MISTAKES)
-            .map(|mistake| {
-                view! {
-                    <li>
-                        <b>"Line " {mistake.line}</b>
-                        <span>{mistake.said}</span>
-                    </li>
-                }
-            })
-            .collect();
-        view! {
-            <section class="mistakes" role="alert">
-                <p>
-                    <Icon glyph=Glyph::Warning />
-                    <b>{name} " is not opened as a lesson yet."</b>
-                    <button
-                        type="button"
-                        class="button low icon-only plain"
-                        aria-label="Close"
-                        on:click=move |_| state.refused.set(None)
-                    >
-                        <Icon glyph=Glyph::Close />
-                    </button>
-                </p>
-                <ol>{rows}</ol>
-                {(more > 0).then(|| view! { <p class="note">{format!("And {more} more.")}</p> })}
-            </section>
-        }
-    };
-    move || state.refused.get().map(shown)
+    let refused = expect_context::<LearnState>().lessons.refused;
+    let on_close = Callback::new(move |()| refused.set(None));
+    move || refused.get().map(|refused| view! { <Mistakes refused on_close /> })
 }

@@ -48,7 +48,7 @@ pub fn Lessons() -> impl IntoView {
     view! {
         <section class="lessons" aria-label="Lessons">
             <Refusal />
-            {shown}
+            {move || shown()}
         </section>
     }
 }

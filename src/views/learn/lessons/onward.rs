@@ -4,18 +4,14 @@ use leptos::prelude::*;
 
 use super::state::{Here, link_to};
 use crate::browser::file;
-use crate::components::icon::{Glyph, Icon};
+use crate::components::button::{Button, ButtonLink};
+use crate::components::icon::Glyph;
 use crate::views::learn::LearnState;
 
 /// A link that looks like a button: the one way on, or one of several.
 pub fn way(to: String, main: bool, label: String) -> AnyView {
-    view! {
-        <a class="button" class:main=main href=to>
-            {label}
-            <Icon glyph=Glyph::Forward />
-        </a>
-    }
-    .into_any()
+    let class = if main { "button main" } else { "button" };
+    view! { <ButtonLink class glyph=Glyph::Forward label to /> }.into_any()
 }
 
 /// To the next step, or to the next lesson.
@@ -44,23 +40,17 @@ pub fn Onward(here: Here) -> impl IntoView {
 pub fn Around(here: Here) -> impl IntoView {
     let course = here.course;
     let lesson = course.lesson.clone();
-    let back = here.step.checked_sub(1).map(|step| {
-        view! {
-            <a class="button" href=link_to(&lesson, step)>
-                <Icon glyph=Glyph::Back />
-                "Back"
-            </a>
-        }
-    });
+    let back = here
+        .step
+        .checked_sub(1)
+        .map(|step| view! { <ButtonLink glyph=Glyph::Back label="Back" to=link_to(&lesson, step) /> });
     let next = (here.step + 1 < lesson.steps.len())
         .then(|| way(link_to(&lesson, here.step + 1), false, "Skip this task".to_owned()));
-    let save = move |_| file::save(&format!("{}.txt", course.lesson.key), &course.text);
+    let save = move |()| file::save(&format!("{}.txt", course.lesson.key), &course.text);
     view! {
         <footer class="around">
-            {back} {next} <button type="button" class="button plain low" on:click=save>
-                <Icon glyph=Glyph::Save />
-                "Save this lesson as a file"
-            </button>
+            {back} {next}
+            <Button class="button plain low" glyph=Glyph::Save label="Save this lesson as a file" on_press=save />
         </footer>
     }
 }

@@ -43,7 +43,7 @@ pub fn Sides(step: Step, shown: Vec<Shown>) -> impl IntoView {
                     hidden=move || latest.get() < index
                 >
                     <span class="unseen">{if request { "Sent: " } else { "Came back: " }}</span>
-                    {content}
+                    {move || content()}
                     <span class="note">{said}</span>
                 </li>
             })

@@ -10,10 +10,11 @@ use crate::address::{View, href};
 use crate::browser::{file, storage};
 use crate::components::toast::Toasts;
 use crate::views::learn::attempt::Attempt;
+use crate::views::learn::mistakes::Refused;
 use buslens::field::in_order;
 use buslens::tool::link::Link;
 use buslens_trainer::Answer;
-use buslens_trainer::lesson::{LESSONS, Lesson, Mistake, Progress, Step, read};
+use buslens_trainer::lesson::{LESSONS, Lesson, Progress, Step, read};
 
 /// A lesson with its text, which can be saved, changed and opened again.
 #[derive(Clone)]
@@ -30,13 +31,6 @@ pub struct Here {
     pub course: Course,
     /// From 0.
     pub step: usize,
-}
-
-/// A file that holds no lesson as it should.
-#[derive(Clone)]
-pub struct Refused {
-    pub name: String,
-    pub mistakes: Vec<Mistake>,
 }
 
 #[derive(Clone, Copy)]
@@ -59,9 +53,6 @@ const BETWEEN: char = '\u{1E}';
 
 /// A lesson has some thousand characters.
 const LONGEST_FILE: u32 = 300_000;
-
-/// More mistakes are not shown at once.
-pub const MOST_MISTAKES: usize = 20;
 
 impl LessonsState {
     /// For the app, by whose context it says things.
@@ -181,7 +172,8 @@ impl LessonsState {
         mistakes.extend(lesson.mistakes());
         let mistakes = in_order(mistakes, |mistake| mistake.line);
         if !mistakes.is_empty() {
-            self.refused.set(Some(Refused { name, mistakes }));
+            let said = format!("{name} is not opened as a lesson yet.");
+            self.refused.set(Some(Refused { said, mistakes }));
             return;
         }
         self.refused.set(None);

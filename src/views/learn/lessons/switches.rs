@@ -65,7 +65,7 @@ pub fn Switches(
                 tabindex=if bit + 1 == bits { "0" } else { "-1" }
                 aria-checked=move || on().to_string()
                 aria-label=name
-                class:one=on
+                class:one=move || on()
                 on:click=move |_| on_set.run(value.get_untracked() ^ 1 << bit)
             >
                 {move || u8::from(on())}
@@ -89,7 +89,7 @@ pub fn Switches(
             <li class=class>
                 {(!label.is_empty()).then(|| view! { <b>{label}</b> })}
                 <span class="cells">{(to..from).rev().map(switch).collect_view()}</span>
-                <span class="below">{below}</span>
+                <span class="below">{move || below()}</span>
             </li>
         }
     };

@@ -2,8 +2,9 @@
 
 use leptos::prelude::*;
 
+use crate::components::button::Button;
 use crate::components::byte_strip::{ByteStrip, Chosen, Lights, blocks, role_class};
-use crate::components::icon::{Glyph, Icon};
+use crate::components::icon::Glyph;
 use crate::components::telegram::Shown;
 use crate::views::learn::words::Words;
 use buslens::field::{Direction, Role, Span, hex};
@@ -197,29 +198,17 @@ pub fn Said(lit: Lit, shown: Vec<Shown>) -> impl IntoView {
         }
     };
     let count = lit.count();
-    let first = move || at.get() == Some(0);
-    let end = move || at.get() == Some(count.saturating_sub(1));
+    let [first, end] = [0, count.saturating_sub(1)].map(|end| Signal::derive(move || at.get() == Some(end)));
+    // Who looked elsewhere comes back to where it went on from.
+    let turn = move |by: isize| {
+        let by = if at.get_untracked().is_some() { by } else { 0 };
+        lit.go(last.get_untracked().saturating_add_signed(by));
+    };
     let player = (count > 1).then(|| {
         view! {
             <div class="player">
-                <button
-                    type="button"
-                    class="button"
-                    disabled=first
-                    on:click=move |_| lit.go(last.get_untracked().saturating_sub(usize::from(at.get_untracked().is_some())))
-                >
-                    <Icon glyph=Glyph::Back />
-                    "Back"
-                </button>
-                <button
-                    type="button"
-                    class="button"
-                    disabled=end
-                    on:click=move |_| lit.go(last.get_untracked() + usize::from(at.get_untracked().is_some()))
-                >
-                    "Next"
-                    <Icon glyph=Glyph::Forward />
-                </button>
+                <Button glyph=Glyph::Back label="Back" disabled=first on_press=move |()| turn(-1) />
+                <Button glyph=Glyph::Forward label="Next" disabled=end on_press=move |()| turn(1) />
                 <span class="note number">
                     {move || at.get().map(|at| format!("{} of {count}", at + 1))}
                 </span>
@@ -228,7 +217,7 @@ pub fn Said(lit: Lit, shown: Vec<Shown>) -> impl IntoView {
     });
     (count > 0).then(|| {
         view! {
-            <div class="spoken" aria-live="polite">{said}</div>
+            <div class="spoken" aria-live="polite">{move || said()}</div>
             {player}
         }
     })

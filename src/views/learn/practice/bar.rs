@@ -3,9 +3,10 @@
 use leptos::prelude::*;
 
 use super::go;
-use super::parts::{button, to_start};
+use super::parts::to_start;
 use super::series::Shared;
 use super::state::{Screen, Where};
+use crate::components::button::Button;
 use crate::components::icon::{Glyph, Icon};
 use crate::views::learn::LearnState;
 use crate::views::learn::attempt::Outcome;
@@ -15,13 +16,11 @@ pub fn bar(series: &Shared, index: Option<usize>) -> AnyView {
     let learn = expect_context::<LearnState>();
     let counted = series.clone();
     let outcomes = Memo::new(move |_| learn.practice.outcomes(&counted));
-    let to = {
-        let source = series.source.clone();
-        move |screen| go(learn, Where::In(source.clone(), screen))
-    };
-    let (wall, paper) = (to.clone(), to.clone());
+    let source = series.source.clone();
+    let to = Callback::new(move |screen| go(learn, Where::In(source.clone(), screen)));
+    let wall = move |()| to.run(Screen::Wall(index.unwrap_or(0)));
+    let paper = move |()| to.run(Screen::Paper);
     let dot = |at: usize| {
-        let to = to.clone();
         let outcome = Memo::new(move |_| outcomes.with(|all| all.get(at).copied().unwrap_or_default()));
         let class = move || match outcome.get() {
             Outcome::Open => "dot",
@@ -37,7 +36,7 @@ pub fn bar(series: &Shared, index: Option<usize>) -> AnyView {
                     class=class
                     aria-label=move || format!("Question {}, {}", at + 1, outcome.get().words())
                     aria-current=(index == Some(at)).then_some("step")
-                    on:click=move |_| to(Screen::Question(at))
+                    on:click=move |_| to.run(Screen::Question(at))
                 >
                     {move || ticked().then(|| view! { <Icon glyph=Glyph::Tick /> })}
                     {move || (!ticked()).then_some(at + 1)}
@@ -57,8 +56,8 @@ pub fn bar(series: &Shared, index: Option<usize>) -> AnyView {
             </p>
             <ol>{dots}</ol>
             <div class="acts">
-                {button("button plain low", None, "On the wall", move || wall(Screen::Wall(index.unwrap_or(0))))}
-                {button("button plain low", Glyph::Print, "Handout", move || paper(Screen::Paper))}
+                <Button class="button plain low" label="On the wall" on_press=wall />
+                <Button class="button plain low" glyph=Glyph::Print label="Handout" on_press=paper />
             </div>
         </nav>
     }

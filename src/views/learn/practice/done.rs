@@ -4,10 +4,10 @@ use leptos::prelude::*;
 
 use super::bar::bar;
 use super::go;
-use super::parts::button;
 use super::series::{Shared, Source};
 use super::state::{Screen, Where};
 use crate::browser::file;
+use crate::components::button::Button;
 use crate::components::copy_button::CopyButton;
 use crate::components::icon::Glyph;
 use crate::views::learn::LearnState;
@@ -42,11 +42,11 @@ pub fn done(series: Shared) -> AnyView {
             Some(seed) => format!("{}, seed {seed}", series.name()),
             None => series.name(),
         };
-        move || {
+        Callback::new(move |()| {
             let code = code.get_untracked();
             let text = format!("# {named}: {} of {all}\n{code}\n", untrack(right));
             file::save(&format!("buslens-{code}.txt"), &text);
-        }
+        })
     };
     let coded = move || {
         (result.is_some() && count(Outcome::Open) == 0).then(|| {
@@ -56,10 +56,11 @@ pub fn done(series: Shared) -> AnyView {
                     <output>{code}</output>
                     <div class="acts">
                         <CopyButton text=code label="Copy" />
-                        {button("button", Glyph::Save, "Save as a file", save.clone())}
+                        <Button glyph=Glyph::Save label="Save as a file" on_press=save />
                     </div>
                 </div>
             }
+            .into_any()
         })
     };
     let first = move |round: Round| go(learn, Where::In(Source::Round(round), Screen::Question(0)));
@@ -68,15 +69,21 @@ pub fn done(series: Shared) -> AnyView {
             let next = Round { seed: round.seed.next(), ..round };
             let harder = Round { level: round.level + 1, ..next };
             let label = format!("On to level {}", harder.level);
-            vec![
-                Some(button("button main", Glyph::Forward, "Another round", move || first(next))),
-                (round.level < *LEVELS.end()).then(|| button("button", None, label, move || first(harder))),
-            ]
+            let harder = (round.level < *LEVELS.end())
+                .then(|| view! { <Button label on_press=move |()| first(harder) /> });
+            view! {
+                <Button class="button main" glyph=Glyph::Forward label="Another round" on_press=move |()| first(next) />
+                {harder}
+            }
+            .into_any()
         }
-        _ => vec![Some(button("button main", None, "To all kinds", move || go(learn, Where::Start)))],
+        _ => {
+            let start = move |()| go(learn, Where::Start);
+            view! { <Button class="button main" label="To all kinds" on_press=start /> }.into_any()
+        }
     };
     let source = series.source.clone();
-    let again = move || {
+    let again = move |()| {
         state.forget(&source);
         go(learn, Where::In(source.clone(), Screen::Question(0)));
     };
@@ -85,8 +92,8 @@ pub fn done(series: Shared) -> AnyView {
         <article class="done">
             <h3 class="headline">{headline}</h3>
             <p class="intro">{more}</p>
-            {coded}
-            <div class="steps">{onward} {button("button plain", Glyph::Undo, "The same once more", again)}</div>
+            {move || coded()}
+            <div class="steps">{onward} <Button class="button plain" glyph=Glyph::Undo label="The same once more" on_press=again /></div>
         </article>
     }
     .into_any()

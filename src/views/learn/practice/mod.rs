@@ -57,7 +57,7 @@ pub fn Practice() -> impl IntoView {
     };
     view! {
         <section class="practice" aria-label="Practice" on:drop=dropped>
-            {shown}
+            {move || shown()}
         </section>
     }
 }

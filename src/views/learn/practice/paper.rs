@@ -4,10 +4,10 @@ use leptos::prelude::*;
 
 use super::given::caption;
 use super::go;
-use super::parts::button;
 use super::series::{Series, Shared};
 use super::state::{Screen, Where};
 use crate::browser::file;
+use crate::components::button::Button;
 use crate::components::icon::Glyph;
 use crate::components::segments::Segments;
 use crate::views::learn::LearnState;
@@ -32,56 +32,53 @@ pub fn paper(series: Shared) -> AnyView {
     ];
     let saved = |ending: &'static str, write: fn(&str, &str, &[Task]) -> String| {
         let series = series.clone();
-        move || {
+        move |()| {
             let text = write(&series.name(), &series.source.place(), &series.tasks);
             file::save(&format!("{}.{ending}", series.file()), &text);
         }
     };
     let (moodle, gift) = (saved("xml", course::moodle_xml), saved("txt", course::gift));
     let source = series.source.clone();
-    let back = move || go(learn, Where::In(source.clone(), Screen::Question(0)));
+    let back = move |()| go(learn, Where::In(source.clone(), Screen::Question(0)));
     // A browser that cannot print does nothing.
-    let print = || drop(window().print());
+    let print = |()| drop(window().print());
     let shown = move || {
         let sheets = sheets.get();
         let rows = |row: fn(&Series, usize, &Task) -> AnyView| {
             series.tasks.iter().enumerate().map(|(at, task)| row(&series, at, task)).collect::<Vec<_>>()
         };
-        let foot = || series.foot();
-        let handout = (sheets != Sheets::Key).then(|| {
+        let sheet = |class: &'static str, name: &'static str, title: String, who: Option<AnyView>, rows| {
             view! {
-                <article class="paper handout" aria-label="Handout">
+                <article class=class aria-label=name>
                     <header>
-                        <h3>{series.name()}</h3>
-                        <p class="who"><span>"Name"</span><span>"Date"</span></p>
+                        <h3>{title}</h3>
+                        {who}
                     </header>
-                    <ol>{rows(question)}</ol>
-                    <footer>{foot()}</footer>
+                    <ol>{rows}</ol>
+                    <footer>{series.foot()}</footer>
                 </article>
             }
+            .into_any()
+        };
+        let handout = (sheets != Sheets::Key).then(|| {
+            let who = view! { <p class="who"><span>"Name"</span><span>"Date"</span></p> }.into_any();
+            sheet("paper handout", "Handout", series.name(), Some(who), rows(question))
         });
         let key = (sheets != Sheets::Handout).then(|| {
-            view! {
-                <article class="paper key" aria-label="Answer key">
-                    <header>
-                        <h3>{format!("Answer key: {}", series.name())}</h3>
-                    </header>
-                    <ol>{rows(answer)}</ol>
-                    <footer>{foot()}</footer>
-                </article>
-            }
+            let title = format!("Answer key: {}", series.name());
+            sheet("paper key", "Answer key", title, None, rows(answer))
         });
-        (handout, key)
+        [handout, key].into_iter().flatten().collect::<Vec<AnyView>>()
     };
     view! {
         <div class="tools">
-            {button("button plain", Glyph::Back, "Back to the questions", back)}
+            <Button class="button plain" glyph=Glyph::Back label="Back to the questions" on_press=back />
             <Segments label="Sheets" options=options value=sheets on_choose=Callback::new(move |chosen| sheets.set(chosen)) />
-            {button("button main", Glyph::Print, "Print", print)}
-            {button("button", Glyph::Save, "Moodle XML", moodle)}
-            {button("button", Glyph::Save, "GIFT", gift)}
+            <Button class="button main" glyph=Glyph::Print label="Print" on_press=print />
+            <Button glyph=Glyph::Save label="Moodle XML" on_press=moodle />
+            <Button glyph=Glyph::Save label="GIFT" on_press=gift />
         </div>
-        {shown}
+        {move || shown()}
     }
     .into_any()
 }

@@ -5,45 +5,16 @@ use web_sys::{File, FileList};
 
 use super::go;
 use super::state::Where;
-use crate::components::icon::{Glyph, Icon};
+use crate::components::button::Button;
+use crate::components::choose::{Choice, Choose};
+use crate::components::icon::Glyph;
 use crate::views::learn::LearnState;
-use buslens_trainer::lesson::Mistake;
-
-/// A button with a sign and a word.
-pub fn button(
-    class: &'static str,
-    glyph: impl Into<Option<Glyph>>,
-    label: impl Into<Signal<String>>,
-    act: impl Fn() + Send + Sync + 'static,
-) -> AnyView {
-    pressed(class, glyph.into(), label.into(), Signal::stored(false), Callback::new(move |()| act()))
-}
-
-/// The same that can be pressed at times.
-pub fn pressed(
-    class: &'static str,
-    glyph: Option<Glyph>,
-    label: Signal<String>,
-    disabled: Signal<bool>,
-    act: Callback<()>,
-) -> AnyView {
-    let sign = move || glyph.map(|glyph| view! { <Icon glyph /> });
-    // What leads on has its sign behind the word.
-    let (before, after) = if glyph == Some(Glyph::Forward) { (None, sign()) } else { (sign(), None) };
-    let icon_only = class.contains("icon-only");
-    view! {
-        <button type="button" class=class prop:disabled=disabled on:click=move |_| act.run(())>
-            {before}
-            <span class:unseen=icon_only>{label}</span>
-            {after}
-        </button>
-    }
-    .into_any()
-}
 
 /// The way back to where practice begins.
 pub fn to_start(learn: LearnState) -> AnyView {
-    button("button plain low back", Glyph::Back, "All kinds", move || go(learn, Where::Start))
+    let to = move |()| go(learn, Where::Start);
+    view! { <Button class="button plain low back" glyph=Glyph::Back label="All kinds" on_press=to /> }
+        .into_any()
 }
 
 /// The files of a list.
@@ -55,21 +26,10 @@ pub fn files(list: Option<FileList>) -> impl Iterator<Item = File> {
     files.into_iter()
 }
 
-/// A choice from a list: value and words of each.
-pub fn select(label: &'static str, options: Vec<(String, String)>, chosen: RwSignal<String>) -> AnyView {
-    let option = |(value, words): (String, String)| {
-        let own = value.clone();
-        view! { <option value=value prop:selected=move || chosen.with(|chosen| *chosen == own)>{words}</option> }
-    };
-    view! {
-        <label class="typed short">
-            <span>{label}</span>
-            <select class="select" on:change=move |event| chosen.set(event_target_value(&event))>
-                {options.into_iter().map(option).collect_view()}
-            </select>
-        </label>
-    }
-    .into_any()
+/// A choice from a list.
+pub fn select(label: &'static str, options: Vec<Choice>, chosen: RwSignal<String>) -> AnyView {
+    let on_choose = Callback::new(move |key| chosen.set(key));
+    view! { <Choose class="typed short" of_list="select" label options value=chosen on_choose /> }.into_any()
 }
 
 /// A place for many lines.
@@ -77,10 +37,9 @@ pub fn lines(
     label: &'static str,
     rows: &'static str,
     placeholder: &'static str,
-    text: impl Into<Signal<String>>,
-    on_type: impl Fn(String) + 'static,
+    text: Signal<String>,
+    on_type: Callback<String>,
 ) -> AnyView {
-    let text = text.into();
     view! {
         <label class="typed">
             <span>{label}</span>
@@ -90,34 +49,9 @@ pub fn lines(
                 spellcheck="false"
                 placeholder=placeholder
                 prop:value=text
-                on:input=move |event| on_type(event_target_value(&event))
+                on:input=move |event| on_type.run(event_target_value(&event))
             ></textarea>
         </label>
-    }
-    .into_any()
-}
-
-/// What is wrong in a text, line by line.
-pub fn mistakes(said: String, all: &[Mistake]) -> AnyView {
-    /// More are not shown at once.
-    const MOST: usize = 20;
-    let row = |mistake: &Mistake| {
-        view! {
-            <li>
-                <b>{format!("Line {}", mistake.line)}</b>
-                <span>{mistake.said.clone()}</span>
-            </li>
-        }
-    };
-    let rows: Vec<_> = all.iter().take(MOST).map(row).collect();
-    view! {
-        <section class="mistakes" role="alert">
-            <p>
-                <Icon glyph=Glyph::Warning />
-                <b>{said}</b>
-            </p>
-            <ol>{rows}</ol>
-        </section>
     }
     .into_any()
 }

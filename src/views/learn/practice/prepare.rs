@@ -9,13 +9,16 @@ use leptos::wasm_bindgen::JsCast;
 use web_sys::HtmlElement;
 
 use super::open_text;
-use super::parts::{button, lines, mistakes, pressed, select, to_start};
+use super::parts::{lines, select, to_start};
 use super::start::any_seed;
 use crate::browser::file;
+use crate::components::button::Button;
+use crate::components::choose::choices;
 use crate::components::fold::Fold;
 use crate::components::icon::Glyph;
 use crate::components::toast::Toasts;
 use crate::views::learn::LearnState;
+use crate::views::learn::mistakes::{Mistakes, Refused};
 use crate::views::read::ReadState;
 use buslens::tool::{PROFILES, Profile};
 use buslens_trainer::fault::Fault;
@@ -55,8 +58,11 @@ pub fn prepare(from_read: bool) -> AnyView {
     });
     let empty = Signal::derive(move || state.draft.with(|text| set::places(text).is_empty()));
     let wrong = move || {
-        let found = read.with(|draft| draft.mistakes.clone());
-        (!found.is_empty() && !empty.get()).then(|| mistakes("This is not a set yet.".to_owned(), &found))
+        let mistakes = read.with(|draft| draft.mistakes.clone());
+        (!mistakes.is_empty() && !empty.get()).then(|| {
+            let refused = Refused { said: "This is not a set yet.".to_owned(), mistakes };
+            view! { <Mistakes refused /> }
+        })
     };
     let rows = move || {
         let places = state.draft.with(|text| set::places(text).len());
@@ -68,15 +74,22 @@ pub fn prepare(from_read: bool) -> AnyView {
         file::save(&name, &state.draft.get_untracked());
     };
     let open = move |()| open_text(learn, "The set", &state.draft.get_untracked());
-    let anew = move || {
+    let anew = move |()| {
         let before = state.draft.get_untracked();
         state.prepare(set::empty("My set"));
         toasts.offer("The set is empty again.", "Undo", move || state.prepare(before.clone()));
     };
     let unready = Signal::derive(move || read.with(|draft| !draft.mistakes.is_empty()));
     let title = Signal::derive(move || read.with(|draft| draft.set.title.clone()));
-    let text =
-        move || lines("The set as a text", "14", "# My set", state.draft, move |text| state.prepare(text));
+    let text = move || {
+        lines(
+            "The set as a text",
+            "14",
+            "# My set",
+            state.draft.into(),
+            Callback::new(move |text| state.prepare(text)),
+        )
+    };
     view! {
         {to_start(learn)}
         <div class="prepare">
@@ -86,16 +99,16 @@ pub fn prepare(from_read: bool) -> AnyView {
                     "Choose tasks, put them in order, and give the set to your group as a file or as a link. It is opened here, and asks everybody the same. This browser keeps what you prepare."
                 </p>
             </header>
-            {wrong}
-            {titled("Title", title, "set-title".to_owned(), move |title| {
+            {move || wrong()}
+            {titled("Title", title, "set-title".to_owned(), Callback::new(move |title: String| {
                 state.prepare(set::titled(&state.draft.get_untracked(), None, &title));
-            })}
-            <ol class="chosen-tasks" aria-label="Tasks of the set">{rows}</ol>
-            {none}
+            }))}
+            <ol class="chosen-tasks" aria-label="Tasks of the set">{move || rows()}</ol>
+            {move || none()}
             <div class="acts">
-                {pressed("button main", Some(Glyph::Forward), "Open the set".into(), unready, Callback::new(open))}
-                {pressed("button", Some(Glyph::Save), "Save as a file".into(), empty, Callback::new(save))}
-                {button("button plain", Glyph::Undo, "Begin anew", anew)}
+                <Button class="button main" glyph=Glyph::Forward label="Open the set" disabled=unready on_press=open />
+                <Button glyph=Glyph::Save label="Save as a file" disabled=empty on_press=save />
+                <Button class="button plain" glyph=Glyph::Undo label="Begin anew" on_press=anew />
             </div>
             <p class="note">"Open it for its link, its handout, the wall, and Moodle."</p>
             <div class="adding">
@@ -123,13 +136,7 @@ impl PartialEq for Draft {
 }
 
 /// A title that is typed; it counts once the field is left.
-fn titled(
-    label: &'static str,
-    title: impl Into<Signal<String>>,
-    id: String,
-    on_change: impl Fn(String) + 'static,
-) -> AnyView {
-    let title = title.into();
+fn titled(label: &'static str, title: Signal<String>, id: String, on_change: Callback<String>) -> AnyView {
     view! {
         <label class="typed">
             <span>{label}</span>
@@ -139,7 +146,7 @@ fn titled(
                 maxlength="80"
                 autocomplete="off"
                 prop:value=title
-                on:change=move |event| on_change(event_target_value(&event))
+                on:change=move |event| on_change.run(event_target_value(&event))
             />
         </label>
     }
@@ -166,14 +173,14 @@ fn row(state: PracticeState, set: &Tasks, at: usize, places: usize) -> AnyView {
         change(&|text| set::later(text, from));
         focus(format!("task-{to}"));
     };
-    let [first, last] = [at == 0, at + 1 == places].map(Signal::stored);
+    let (first, last) = (at == 0, at + 1 == places);
     let number = at + 1;
-    let icon = |glyph, label: String, disabled, act: Callback<()>| {
-        pressed("button plain icon-only", Some(glyph), Signal::stored(label), disabled, act)
+    let icon = |glyph: Glyph, label: String, disabled: bool, on_press: Callback<()>| {
+        view! { <Button class="button plain icon-only" glyph label disabled on_press /> }
     };
     view! {
         <li>
-            {titled("Title of the task", title, format!("task-{at}"), renamed)}
+            {titled("Title of the task", Signal::stored(title), format!("task-{at}"), Callback::new(renamed))}
             <p class="soft">{asked}</p>
             <div class="acts">
                 {icon(
@@ -191,7 +198,7 @@ fn row(state: PracticeState, set: &Tasks, at: usize, places: usize) -> AnyView {
                 {icon(
                     Glyph::Close,
                     format!("Remove task {number}"),
-                    Signal::stored(false),
+                    false,
                     Callback::new(move |()| change(&|text| set::without(text, at))),
                 )}
             </div>
@@ -218,7 +225,7 @@ fn add(state: PracticeState, toasts: Toasts, title: &str, lines: &str) {
 fn from_practice(state: PracticeState, toasts: Toasts) -> AnyView {
     let kind = RwSignal::new(Kind::Decode.key().to_owned());
     let level = RwSignal::new(LEVELS.start().to_string());
-    let kinds = Kind::ALL.map(|kind| (kind.key().to_owned(), kind.label().to_owned())).to_vec();
+    let kinds = choices(Kind::ALL.map(|kind| (kind.key(), kind.label())));
     let levels = LEVELS.map(|level| (level.to_string(), format!("Level {level}"))).collect();
     let add = move |whole: bool| {
         let kind = Kind::of(&kind.get_untracked()).unwrap_or(Kind::Decode);
@@ -236,8 +243,8 @@ fn from_practice(state: PracticeState, toasts: Toasts) -> AnyView {
             {select("Kind", kinds, kind)}
             {select("Level", levels, level)}
             <div class="acts">
-                {button("button", Glyph::Add, "Add a question", move || add(false))}
-                {button("button plain", None, format!("All {QUESTIONS} of a round"), move || add(true))}
+                <Button glyph=Glyph::Add label="Add a question" on_press=move |()| add(false) />
+                <Button class="button plain" label=format!("All {QUESTIONS} of a round") on_press=move |()| add(true) />
             </div>
         </section>
     }
@@ -250,8 +257,8 @@ fn from_plant(state: PracticeState, toasts: Toasts) -> AnyView {
     let options = all.iter().enumerate().map(|(at, (_, words))| (at.to_string(), words.clone())).collect();
     let chosen = RwSignal::new("0".to_owned());
     let device = RwSignal::new(String::new());
-    let devices = PROFILES.iter().map(|device| (device.key.to_owned(), device.label.to_owned()));
-    let devices = std::iter::once((String::new(), "Any".to_owned())).chain(devices).collect();
+    let devices = PROFILES.iter().map(|device| (device.key, device.label));
+    let devices = choices(std::iter::once(("", "Any")).chain(devices));
     let refused = RwSignal::new(String::new());
     let make = move |event: SubmitEvent| {
         event.prevent_default();
@@ -275,8 +282,8 @@ fn from_plant(state: PracticeState, toasts: Toasts) -> AnyView {
     view! {
         <form on:submit=make>
             <h4>"From your plant"</h4>
-            {lines("A telegram, a request and its response, or a log", "5", "01 03 00 C8 00 03 84 35", state.own, typed)}
-            {button("button low", Glyph::Read, "Take it from Read", move || untrack(|| take(state, read)))}
+            {lines("A telegram, a request and its response, or a log", "5", "01 03 00 C8 00 03 84 35", state.own.into(), Callback::new(typed))}
+            <Button class="button low" glyph=Glyph::Read label="Take it from Read" on_press=move |()| untrack(|| take(state, read)) />
             {select("What is to be found", options, chosen)}
             {select("Device", devices, device)}
             <p class="misfit" role="alert">{refused}</p>

@@ -9,8 +9,9 @@ use super::given::{GivenPart, in_read, named, plain};
 use super::go;
 use super::series::Shared;
 use super::state::{Key, Screen, Where};
+use crate::components::button::Button;
 use crate::components::byte_strip::{Block, ByteStrip, Lights};
-use crate::components::icon::{Glyph, Icon};
+use crate::components::icon::Glyph;
 use crate::views::learn::LearnState;
 use crate::views::learn::answer::{Answering, Blanks, Choices, Help, Hints, Typed, said};
 use crate::views::learn::attempt::{Attempt, Outcome};
@@ -82,10 +83,13 @@ fn Asked(task: Task, key: Key, label: &'static str, on_next: Callback<()>) -> im
                 <Said attempt task />
                 <div class="steps">
                     <Help answering count=hints.len() label="Show the answer" on_answer=Callback::new(show) />
-                    <button type="button" class="button main" hidden=move || !told.get() on:click=move |_| on_next.run(())>
-                        {label}
-                        <Icon glyph=Glyph::Forward />
-                    </button>
+                    <Button
+                        class="button main"
+                        glyph=Glyph::Forward
+                        label
+                        hidden=Signal::derive(move || !told.get())
+                        on_press=on_next
+                    />
                 </div>
             </div>
             <Hints answering hints />
@@ -134,7 +138,7 @@ fn AnswerForm(answering: Answering, task: StoredValue<Task>, lights: Lights) -> 
                 }
                 _ => "none yet: click one above, or go to it with the arrow keys and press Enter".to_owned(),
             };
-            view! { <p class="chosen-one">"Chosen: " <strong>{chosen}</strong></p> }.into_any()
+            view! { <p class="chosen-one">"Chosen: " <strong>{move || chosen()}</strong></p> }.into_any()
         }
         Expected::Blanks { telegram, blanks } => {
             let spans: Vec<Span> = blanks.iter().map(|blank| blank.span).collect();
@@ -194,7 +198,7 @@ fn Said(attempt: Memo<Attempt>, task: StoredValue<Task>) -> impl IntoView {
             {more}
         }
     };
-    view! { <div class="saying" role="status">{shown}</div> }
+    view! { <div class="saying" role="status">{move || shown()}</div> }
 }
 
 /// How the answer comes about, once it is found.

@@ -4,9 +4,10 @@ use leptos::prelude::*;
 use leptos::task::spawn_local;
 use web_sys::File;
 
-use super::parts::{lines as place, pressed, to_start};
+use super::parts::{lines as place, to_start};
 use super::series::Series;
 use crate::browser::file;
+use crate::components::button::Button;
 use crate::components::icon::Glyph;
 use crate::components::open_file::OpenFile;
 use crate::components::wide_table::WideTable;
@@ -82,14 +83,14 @@ pub fn results() -> AnyView {
                 "Codes, one a line, with a name beside each",
                 "6",
                 "Anna 20MF-K7QM",
-                codes,
-                move |text| codes.set(text),
+                codes.into(),
+                Callback::new(move |text| codes.set(text)),
             )}
             <div class="acts">
                 <OpenFile label="Open files" multiple=true accept=".txt,text/plain" on_open=Callback::new(open) />
-                {pressed("button", Some(Glyph::Save), "Save as CSV".into(), none, Callback::new(save))}
+                <Button glyph=Glyph::Save label="Save as CSV" disabled=none on_press=save />
             </div>
-            {table}
+            {move || table()}
             <p class="note">
                 "Nothing is sent anywhere: who sits before this page sees the table, and nobody else. A code is short, not secret."
             </p>

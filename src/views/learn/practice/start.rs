@@ -5,13 +5,14 @@ use std::sync::Arc;
 use leptos::prelude::*;
 use web_sys::js_sys::Math;
 
-use super::parts::{button, mistakes};
 use super::series::{Series, Source};
 use super::state::{Screen, Where};
 use super::{go, open_file};
+use crate::components::button::Button;
 use crate::components::icon::{Glyph, Icon};
 use crate::components::open_file::OpenFile;
 use crate::views::learn::LearnState;
+use crate::views::learn::mistakes::Mistakes;
 use buslens::field::count;
 use buslens_trainer::practice::{Kind, LEVELS, QUESTIONS, Round, Seed};
 
@@ -34,10 +35,7 @@ pub fn start(refused: &'static str) -> AnyView {
         }
     });
     let kinds = Kind::ALL.map(|kind| kind_card(learn, kind, begin)).into_iter().collect_view();
-    let wrong = move || {
-        let refused = state.refused.get()?;
-        Some(mistakes(format!("{} is not opened as a set yet.", refused.name), &refused.mistakes))
-    };
+    let wrong = move || state.refused.get().map(|refused| view! { <Mistakes refused /> });
     let sets = move || {
         let all: Vec<AnyView> = state.sets.get().into_iter().map(|text| set_card(learn, text)).collect();
         (!all.is_empty()).then(|| {
@@ -47,6 +45,7 @@ pub fn start(refused: &'static str) -> AnyView {
                     <ul>{all}</ul>
                 </section>
             }
+            .into_any()
         })
     };
     let seed_note = move || match misfit() {
@@ -55,7 +54,7 @@ pub fn start(refused: &'static str) -> AnyView {
     };
     view! {
         {(!refused.is_empty()).then(|| view! { <p class="refused" role="alert">{refused}</p> })}
-        {wrong}
+        {move || wrong()}
         <header class="start">
             <div>
                 <h3 class="headline">"Practice"</h3>
@@ -78,10 +77,10 @@ pub fn start(refused: &'static str) -> AnyView {
                     prop:value=typed
                     on:input=move |event| typed.set(event_target_value(&event))
                 />
-                <span class="note" id="seed-note">{seed_note}</span>
+                <span class="note" id="seed-note">{move || seed_note()}</span>
             </label>
         </header>
-        {sets}
+        {move || sets()}
         <ul class="kind-cards">{kinds}</ul>
         <section class="trainers">
             <h3>"For trainers"</h3>
@@ -89,9 +88,9 @@ pub fn start(refused: &'static str) -> AnyView {
                 "Begin a round to get its link: it asks the same questions on every machine. In the round you can print a handout with its answer key, put it on the wall, or take it as a file for Moodle. Two seeds of a level are equally hard. A set has the tasks that you choose, and telegrams and logs of your own plant among them."
             </p>
             <div class="acts">
-                {button("button", Glyph::Edit, "Prepare a set of tasks", move || go(learn, Where::Prepare))}
+                <Button glyph=Glyph::Edit label="Prepare a set of tasks" on_press=move |()| go(learn, Where::Prepare) />
                 <OpenFile label="Open a set" accept=".txt,text/plain" on_open=Callback::new(move |file| open_file(learn, file, false)) />
-                {button("button", Glyph::Tick, "Results of a group", move || go(learn, Where::Results))}
+                <Button glyph=Glyph::Tick label="Results of a group" on_press=move |()| go(learn, Where::Results) />
             </div>
         </section>
     }
@@ -120,7 +119,7 @@ fn set_card(learn: LearnState, text: Arc<str>) -> AnyView {
                 <span>{about}</span>
                 <Icon glyph=Glyph::ChevronRight />
             </button>
-            {button("button plain icon-only", Glyph::Close, remove, move || learn.practice.remove(&text))}
+            <Button class="button plain icon-only" glyph=Glyph::Close label=remove on_press=move |()| learn.practice.remove(&text) />
         </li>
     }
     .into_any()

@@ -9,7 +9,7 @@ use super::series::{Series, Shared, Source};
 use crate::browser::storage;
 use crate::components::toast::Toasts;
 use crate::views::learn::attempt::{Attempt, Outcome};
-use buslens_trainer::lesson::Mistake;
+use crate::views::learn::mistakes::Refused;
 use buslens_trainer::practice::{NoRound, Seed};
 use buslens_trainer::set;
 
@@ -83,13 +83,6 @@ impl Where {
 
 /// Which question: the place of its round, or of a task by itself, and its index there.
 pub type Key = (String, usize);
-
-/// A file that holds no set as it should.
-#[derive(Clone, PartialEq)]
-pub struct Refused {
-    pub name: String,
-    pub mistakes: Vec<Mistake>,
-}
 
 /// What came of the questions; it outlasts every switch of views.
 #[derive(Clone, Copy)]
@@ -195,7 +188,8 @@ impl PracticeState {
     pub fn open_text(self, name: &str, text: &str) -> Option<Source> {
         let (_, mistakes) = set::read(text);
         if !mistakes.is_empty() {
-            self.refused.set(Some(Refused { name: name.to_owned(), mistakes }));
+            let said = format!("{name} is not opened as a set yet.");
+            self.refused.set(Some(Refused { said, mistakes }));
             return None;
         }
         self.refused.set(None);

@@ -5,10 +5,10 @@ use leptos::prelude::*;
 
 use super::given::{bare, named};
 use super::go;
-use super::parts::{button, pressed};
 use super::series::Shared;
 use super::state::{Screen, Where};
 use crate::browser::typing::is_typed_into;
+use crate::components::button::Button;
 use crate::components::byte_strip::{Block, ByteStrip, Lights};
 use crate::components::icon::Glyph;
 use crate::views::learn::LearnState;
@@ -67,8 +67,9 @@ pub fn wall(series: Shared, index: usize) -> AnyView {
         label.to_owned()
     });
     let [first, last] = [0, steps].map(|end| Signal::derive(move || step.get() == end));
+    let next = move |()| to.run(Screen::Wall(index + 1));
     let next = (index + 1 < series.tasks.len())
-        .then(|| button("button plain", None, "Next question", move || to.run(Screen::Wall(index + 1))));
+        .then(|| view! { <Button class="button plain" label="Next question" on_press=next /> });
     view! {
         <article class="wall">
             <h3>{task.question.clone()}</h3>
@@ -77,15 +78,15 @@ pub fn wall(series: Shared, index: usize) -> AnyView {
             {strip}
             {choices}
             <p class="wall-answer" aria-live="polite">
-                {said}
+                {move || said()}
             </p>
             <div class="tools">
-                {pressed("button", Some(Glyph::Back), "Back".into(), first, Callback::new(move |()| turn(-1)))}
-                {pressed("button main", Some(Glyph::Forward), label, last, Callback::new(move |()| turn(1)))}
+                <Button glyph=Glyph::Back label="Back" disabled=first on_press=move |()| turn(-1) />
+                <Button class="button main" glyph=Glyph::Forward label disabled=last on_press=move |()| turn(1) />
                 <span class="soft">"Arrow keys do the same."</span>
                 <span class="rest"></span>
                 {next}
-                {button("button plain", Glyph::Close, "Leave the wall", move || to.run(Screen::Question(index)))}
+                <Button class="button plain" glyph=Glyph::Close label="Leave the wall" on_press=move |()| to.run(Screen::Question(index)) />
             </div>
         </article>
     }

@@ -131,45 +131,60 @@ pub fn BitDiagram(spec: &'static Spec) -> impl IntoView {
         let shown = move |value: u64| {
             if hex { hex_value(value, (part.count as usize).div_ceil(8)) } else { value.to_string() }
         };
-        let names = part.names.iter().filter(|name| !name.label.is_empty()).map(|name| {
-            view! {
-                <li>
-                    <span class="mono">{shown(name.value)}</span>
-                    " "
-                    {name.label}
-                </li>
-            }
-        });
-        let ranges = part.ranges.iter().map(|range| {
-            view! {
-                <li>
-                    <span class="mono">{format!("{} to {}", shown(range.from), shown(range.to))}</span>
-                    " "
-                    {range.label}
-                </li>
-            }
-        });
-        let names: Vec<_> = names.map(IntoAny::into_any).chain(ranges.map(IntoAny::into_any)).collect();
-        let said = if part.reserved { "Must be 0." } else { part.note };
-        view! {
-            <tr>
-                <th scope="row" class="mono">{place}</th>
-                <td>
-                    <b>{Message::term(part.label).sentence()}</b>
-                    {(!said.is_empty()).then(|| format!(". {said}"))}
-                    {(!names.is_empty()).then(|| view! { <ul>{names}</ul> })}
-                </td>
-            </tr>
+        let mut names: Vec<AnyView> = Vec::new();
+        for name in part.names.iter().filter(|name| !name.label.is_empty()) {
+            names.push(named(shown(name.value), name.label));
         }
+        for range in part.ranges {
+            names.push(named(format!("{} to {}", shown(range.from), shown(range.to)), range.label));
+        }
+        let said = if part.reserved { "Must be 0." } else { part.note };
+        let names = (!names.is_empty()).then(|| view! { <ul>{names}</ul> }.into_any());
+        meaning(place, Message::term(part.label).sentence(), said, names)
     };
-    let rows = parts.iter().map(|part| row(&part)).collect_view();
+    let rows = parts.iter().map(|part| row(&part)).collect();
     view! {
         <ol class="bit-diagram" aria-hidden="true" style:--bits=width.min(16).to_string()>
             {cells}
         </ol>
+        {meanings(format!("Bits of {}", spec.label), rows)}
+    }
+}
+
+/// What values or bits mean, a row each.
+pub fn meanings(caption: String, rows: Vec<AnyView>) -> AnyView {
+    view! {
         <table class="table values-of">
-            <caption>"Bits of " {spec.label}</caption>
+            <caption>{caption}</caption>
             <tbody>{rows}</tbody>
         </table>
     }
+    .into_any()
+}
+
+/// A row of those: what it is called, a note that may be empty, and what else there is.
+pub fn meaning(value: String, label: String, note: &str, more: Option<AnyView>) -> AnyView {
+    view! {
+        <tr>
+            <th scope="row" class="mono">{value}</th>
+            <td>
+                <b>{label}</b>
+                {(!note.is_empty()).then(|| format!(". {note}"))}
+                {more}
+            </td>
+        </tr>
+    }
+    .into_any()
+}
+
+/// A value in a list, and what it is called.
+pub fn named(value: String, label: &'static str) -> AnyView {
+    view! {
+        <li>
+            <span class="mono">{value}</span>
+            " "
+            {label}
+        </li>
+    }
+    .into_any()
 }

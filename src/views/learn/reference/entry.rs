@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use leptos::prelude::*;
 
-use super::diagram::BitDiagram;
+use super::diagram::{BitDiagram, meaning, meanings};
 use crate::address::{View, href};
-use crate::components::icon::{Glyph, Icon};
+use crate::components::button::ButtonLink;
+use crate::components::icon::Glyph;
 use buslens::field::{Format, Name, Spec, hex_value};
 use buslens::tool::reference::{About, Code, Doing, Item, Register};
 
@@ -19,7 +20,7 @@ pub fn Entry(item: Signal<Option<Arc<Item>>>) -> impl IntoView {
     };
     view! {
         <section class="entry" aria-label="Entry">
-            {shown}
+            {move || shown()}
         </section>
     }
 }
@@ -36,12 +37,8 @@ fn entry(item: &Item) -> AnyView {
             Doing::Write => "Write it in Build",
             Doing::Build => "Open in Build",
         };
-        view! {
-            <a class="button" class:main=doing != Doing::Write href=href(View::Build, &link)>
-                <Icon glyph=Glyph::Build />
-                {words}
-            </a>
-        }
+        let class = if doing == Doing::Write { "button" } else { "button main" };
+        view! { <ButtonLink class glyph=Glyph::Build label=words to=href(View::Build, &link) /> }
     });
     view! {
         <h3>{item.label.clone()}</h3>
@@ -141,23 +138,9 @@ fn value_text(spec: &'static Spec, value: u64) -> String {
 pub fn values(spec: &'static Spec) -> AnyView {
     let named = spec.names.iter().filter(|name| !name.label.is_empty()).collect::<Vec<_>>();
     let names = (!named.is_empty()).then(|| {
-        let row = |name: &&Name| {
-            view! {
-                <tr>
-                    <th scope="row" class="mono">{value_text(spec, name.value)}</th>
-                    <td>
-                        <b>{name.label}</b>
-                        {(!name.note.is_empty()).then(|| format!(". {}", name.note))}
-                    </td>
-                </tr>
-            }
-        };
-        view! {
-            <table class="table values-of">
-                <caption>"Values of " {spec.label}</caption>
-                <tbody>{named.iter().map(row).collect_view()}</tbody>
-            </table>
-        }
+        let row =
+            |name: &&Name| meaning(value_text(spec, name.value), name.label.to_owned(), name.note, None);
+        meanings(format!("Values of {}", spec.label), named.iter().map(row).collect())
     });
     let bits = (!spec.bits.is_empty()).then(|| view! { <BitDiagram spec /> });
     view! {

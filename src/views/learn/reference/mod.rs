@@ -7,12 +7,12 @@ mod topic;
 
 use std::sync::{Arc, LazyLock};
 
-use leptos::html;
 use leptos::prelude::*;
 
+use super::search::Search;
 use super::state::{LearnState, Part};
 use crate::address::{View, href};
-use crate::components::icon::{Glyph, Icon};
+use crate::components::button::Button;
 use buslens::tool::link::Link;
 use buslens::tool::reference::{About, Book, Chapter, Item, find, items};
 use entry::Entry;
@@ -122,13 +122,11 @@ pub fn Reference() -> impl IntoView {
         let (chapter, typed) = (chapter.get(), typed.get());
         Found(Place { chapter, typed, item: String::new() }.found())
     });
-    let field = NodeRef::<html::Input>::new();
-    let on_input = move |event| {
-        let typed = event_target_value(&event);
+    let on_type = Callback::new(move |typed| {
         // What is open is no longer what is looked for.
         let to = Place { typed, item: String::new(), ..place.get_untracked() };
         state.type_to(Part::Reference, to.text());
-    };
+    });
     // How far the search reaches, and what there is besides.
     let elsewhere = Memo::new(move |_| match (chapter.get(), typed.get()) {
         (Some(_), typed) if !typed.trim().is_empty() => {
@@ -136,7 +134,7 @@ pub fn Reference() -> impl IntoView {
         }
         _ => 0,
     });
-    let everywhere = move |_| {
+    let everywhere = move |()| {
         let to = Place { typed: typed.get_untracked(), ..Place::default() };
         state.go_to(Part::Reference, to.text());
     };
@@ -162,14 +160,12 @@ pub fn Reference() -> impl IntoView {
             state.go_to(Part::Reference, to.text());
         });
         let rows = Signal::derive(move || found.get().0);
-        let with_book = Signal::derive(move || chapter.get().is_none());
-        let are_pages = move || chapter.get().is_some_and(|(_, chapter)| chapter == Chapter::Telegrams);
+        let with_book = chapter.get().is_none();
+        let are_pages = chapter.get().is_some_and(|(_, chapter)| chapter == Chapter::Telegrams);
         view! {
             <div class="looked-up" class:pages=are_pages>
                 <Table rows chosen with_book on_choose />
-                <Show when=move || !are_pages()>
-                    <Entry item=chosen />
-                </Show>
+                {(!are_pages).then(|| view! { <Entry item=chosen /> })}
             </div>
         }
         .into_any()
@@ -184,29 +180,23 @@ pub fn Reference() -> impl IntoView {
             <Contents chapter />
             <div class="content">
                 <div class="tools" role="search" aria-label="Reference">
-                    <label class="search">
-                        <Icon glyph=Glyph::Search />
-                        <span class="unseen">"Look up: a name, a number, a text of the display"</span>
-                        <input
-                            node_ref=field
-                            type="search"
-                            autocomplete="off"
-                            spellcheck="false"
-                            placeholder="A name or a number: set speed, 2034h, 40216, exception 66, E.bcc"
-                            prop:value=move || typed.get()
-                            on:input=on_input
-                        />
-                    </label>
+                    <Search
+                        label="Look up: a name, a number, a text of the display"
+                        placeholder="A name or a number: set speed, 2034h, 40216, exception 66, E.bcc"
+                        typed
+                        on_type
+                    />
                     <span class="end" role="status">
-                        {number}
-                        <Show when=move || { elsewhere.get() > 0 }>
-                            <button type="button" class="link" on:click=everywhere>
-                                {move || format!("{} more in all of the reference", elsewhere.get())}
-                            </button>
-                        </Show>
+                        {move || number()}
+                        <Button
+                            class="link"
+                            label=Signal::derive(move || format!("{} more in all of the reference", elsewhere.get()))
+                            hidden=Signal::derive(move || elsewhere.get() == 0)
+                            on_press=everywhere
+                        />
                     </span>
                 </div>
-                {content}
+                {move || content()}
             </div>
         </section>
     }
@@ -239,10 +229,12 @@ impl PartialEq for ByKey {
 fn Contents(chapter: Memo<Option<(Book, Chapter)>>) -> impl IntoView {
     let of_book = |book: Book| {
         let link = |own: Chapter| {
-            let is_here = move || (chapter.get() == Some((book, own))).then_some("true");
             view! {
                 <li>
-                    <a href=Place::in_chapter(book, own).href() aria-current=is_here>
+                    <a
+                        href=Place::in_chapter(book, own).href()
+                        aria-current=move || (chapter.get() == Some((book, own))).then_some("true")
+                    >
                         {own.label(book)}
                     </a>
                 </li>

@@ -23,7 +23,7 @@ pub fn Table(
     rows: Signal<Vec<Arc<Item>>>,
     chosen: Signal<Option<Arc<Item>>>,
     /// Whether the rows say of which book they are.
-    with_book: Signal<bool>,
+    with_book: bool,
     on_choose: Callback<Arc<Item>>,
 ) -> impl IntoView {
     let list = NodeRef::<html::Div>::new();
@@ -122,7 +122,7 @@ pub fn Table(
             choose(to);
         }
     };
-    let click = move |at: usize| {
+    let click = Callback::new(move |at: usize| {
         choose(at);
         request_animation_frame(|| {
             // Where the entry is below the list, it comes into sight.
@@ -132,12 +132,12 @@ pub fn Table(
                 entry.scroll_into_view();
             }
         });
-    };
+    });
     view! {
         <div
             node_ref=list
             class="found"
-            class:with-book=move || with_book.get()
+            class:with-book=with_book
             class:no-limits=move || !limited.get()
             role="grid"
             tabindex="0"
@@ -165,18 +165,16 @@ pub fn Table(
                         each=shown
                         key=|(place, item)| (*place, item.book.key(), item.chapter.key(), item.key.clone())
                         children=move |(place, item)| {
-                            let is_chosen = move || at.get() == Some(place);
+                            let is_chosen = Signal::derive(move || at.get() == Some(place));
                             row(place, &item, is_chosen, click)
                         }
                     />
                 </div>
             </div>
-            <Show when=move || total.get() == 0>
-                <p class="nothing">
-                    "Nothing is called so, and nothing has this number. Try a part of the name, or the number as the \
-                     manual writes it."
-                </p>
-            </Show>
+            <p class="nothing" hidden=move || total.get() != 0>
+                "Nothing is called so, and nothing has this number. Try a part of the name, or the number as the \
+                 manual writes it."
+            </p>
         </div>
     }
 }
@@ -186,18 +184,19 @@ fn row_height() -> usize {
     if narrow { HIGH_ON_PHONE } else { HIGH }
 }
 
-fn row(
-    place: usize,
-    item: &Arc<Item>,
-    is_chosen: impl Fn() -> bool + Send + Sync + 'static,
-    choose: impl Fn(usize) + Copy + 'static,
-) -> AnyView {
+fn row(place: usize, item: &Arc<Item>, is_chosen: Signal<bool>, choose: Callback<usize>) -> AnyView {
     let (id, allowed, unit) = match &item.about {
         About::Register(register) => (register.id, register.limits(), register.unit()),
         About::Telegram(_) | About::Code(_) => ("", String::new(), ""),
     };
-    let label = item.label.clone();
     let id = (!id.is_empty()).then(|| view! { <span class="id">{id}</span> });
+    let cell = |class: &'static str, content: AnyView| {
+        view! {
+            <span role="gridcell" class=class>
+                {content}
+            </span>
+        }
+    };
     // A click on a link is no choice.
     let stop = |event: MouseEvent| event.stop_propagation();
     let drafts = item.drafts().into_iter().map(|(doing, link)| {
@@ -218,15 +217,15 @@ fn row(
             role="row"
             class="row"
             aria-rowindex=place + 2
-            aria-selected=move || is_chosen().to_string()
-            on:click=move |_| choose(place)
+            aria-selected=move || is_chosen.get().to_string()
+            on:click=move |_| choose.run(place)
         >
-            <span role="gridcell" class="n">{item.number.clone()}</span>
-            <span role="gridcell" class="l">{label} {id}</span>
-            <span role="gridcell" class="k">{about(item)}</span>
-            <span role="gridcell" class="m">{allowed} " " {unit}</span>
-            <span role="gridcell" class="b">{item.book.short()}</span>
-            <span role="gridcell" class="d">{drafts.collect_view()}</span>
+            {cell("n", item.number.clone().into_any())}
+            {cell("l", (item.label.clone(), id).into_any())}
+            {cell("k", about(item).into_any())}
+            {cell("m", format!("{allowed} {unit}").into_any())}
+            {cell("b", item.book.short().into_any())}
+            {cell("d", drafts.collect_view().into_any())}
         </div>
     }
     .into_any()

@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use leptos::prelude::*;
 
-use super::diagram::{BitDiagram, Diagram};
+use super::diagram::{BitDiagram, Diagram, named};
 use super::entry::source;
 use super::{ITEMS, Place, place_of};
 use crate::address::{View, href};
+use crate::components::button::{Button, ButtonLink};
 use crate::components::byte_strip::{ByteStrip, Lights, blocks};
-use crate::components::icon::{Glyph, Icon};
+use crate::components::icon::Glyph;
 use crate::components::segments::Segments;
 use crate::components::telegram::Shown;
 use crate::views::learn::gallery::SAMPLES;
@@ -33,24 +34,12 @@ pub fn TopicPage(item: Arc<Item>) -> impl IntoView {
     // Its telegrams say it themselves.
     let repeated = topic.layouts(carriers[0]).iter().any(|layout| layout.note == note);
     let draft = topic.draft().map(|link| {
-        view! {
-            <a class="button" href=href(View::Build, &link)>
-                <Icon glyph=Glyph::Build />
-                "Open in Build"
-            </a>
-        }
+        view! { <ButtonLink glyph=Glyph::Build label="Open in Build" to=href(View::Build, &link) /> }
     });
     // A browser that cannot print does nothing.
-    let print = |_| {
-        let _ = window().print();
-    };
+    let print = |()| drop(window().print());
     let all = Place::in_chapter(item.book, item.chapter);
-    let back = view! {
-        <a class="back" href=all.href()>
-            <Icon glyph=Glyph::Back />
-            {format!("All telegrams of {}", item.book.label())}
-        </a>
-    };
+    let back = format!("All telegrams of {}", item.book.label());
     let layouts = {
         let item = item.clone();
         move || {
@@ -86,7 +75,7 @@ pub fn TopicPage(item: Arc<Item>) -> impl IntoView {
     view! {
         <article class="topic">
             <nav class="steps" aria-label="Other telegrams">
-                {back}
+                <ButtonLink class="back" glyph=Glyph::Back label=back to=all.href() />
                 {neighbours}
             </nav>
             <header>
@@ -98,14 +87,11 @@ pub fn TopicPage(item: Arc<Item>) -> impl IntoView {
                     {several
                         .then(|| view! { <Segments label="Carried by" options=names value on_choose=choose class="low" /> })}
                     {draft}
-                    <button type="button" class="button" on:click=print>
-                        <Icon glyph=Glyph::Print />
-                        "Print"
-                    </button>
+                    <Button glyph=Glyph::Print label="Print" on_press=print />
                 </div>
             </header>
             {(!repeated).then(|| view! { <p>{note}</p> })}
-            {layouts}
+            {move || layouts()}
             <footer>{source(said_by)}</footer>
         </article>
     }
@@ -124,17 +110,8 @@ fn neighbours(item: &Arc<Item>) -> Vec<AnyView> {
     let Some(at) = all.iter().position(|other| other.key == item.key) else { return Vec::new() };
     let link = |at: usize, glyph: Glyph| {
         let other = all.get(at)?;
-        Some(
-            view! {
-                <a href=place_of(other, "").href()>
-                    <Icon glyph />
-                    {other.number.clone()}
-                    " "
-                    {other.label.clone()}
-                </a>
-            }
-            .into_any(),
-        )
+        let label = format!("{} {}", other.number, other.label);
+        Some(view! { <ButtonLink class="beside" glyph label to=place_of(other, "").href() /> }.into_any())
     };
     let before = at.checked_sub(1).and_then(|before| link(before, Glyph::Back));
     before.into_iter().chain(link(at + 1, Glyph::ChevronRight)).collect()
@@ -227,18 +204,10 @@ fn Fields(rows: Vec<Row>, bits: Vec<&'static Spec>) -> impl IntoView {
         let here = row.chosen.filter(|_| !row.size.is_around()).map(|(value, chosen)| {
             if chosen.label.is_empty() { String::new() } else { format!(" Here {value}: {}.", chosen.label) }
         });
-        let named: Vec<&Name> = spec.names.iter().filter(|name| !name.label.is_empty()).collect();
-        let names = (!named.is_empty()).then(|| {
-            let name = |name: &&Name| {
-                view! {
-                    <li>
-                        <span class="mono">{name.value}</span>
-                        " "
-                        {name.label}
-                    </li>
-                }
-            };
-            view! { <ul class="named">{named.iter().map(name).collect_view()}</ul> }
+        let all: Vec<&Name> = spec.names.iter().filter(|name| !name.label.is_empty()).collect();
+        let names = (!all.is_empty()).then(|| {
+            let names: Vec<_> = all.iter().map(|name| named(name.value.to_string(), name.label)).collect();
+            view! { <ul class="named">{names}</ul> }
         });
         let around = row.size.is_around();
         view! {

@@ -4,10 +4,10 @@ use gloo_timers::callback::Timeout;
 use leptos::html;
 use leptos::prelude::*;
 
+use crate::components::choose::{Choose, choices};
 use crate::components::icon::{Glyph, Icon};
 use crate::components::segments::Segments;
 use crate::views::read::ReadState;
-use crate::views::read::reading::Choose;
 use crate::views::read::times::stretch;
 use crate::worker::messages::{Request, Which};
 use buslens::field::{Direction, many};
@@ -106,8 +106,8 @@ pub fn Filters(folded: RwSignal<bool>) -> impl IntoView {
 #[component]
 fn Wanteds() -> impl IntoView {
     let log = expect_context::<ReadState>().log;
-    let wanted =
-        Wanted::ALL.iter().filter(|it| **it != Wanted::All).map(|it| (it.key(), it.label())).collect();
+    let wanted = Wanted::ALL.iter().filter(|it| **it != Wanted::All);
+    let wanted = choices(wanted.map(|it| (it.key(), it.label())));
     let value = move || {
         log.filter.with(|filter| match filter.wanted {
             Wanted::All => String::new(),

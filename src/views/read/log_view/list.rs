@@ -217,7 +217,7 @@ fn ListRow(place: usize, row: Row, dated: bool) -> impl IntoView {
             role="row"
             class="row"
             class:asks=direction == Some(Direction::Request)
-            class:hit=is_hit
+            class:hit=move || is_hit()
             aria-rowindex=place + 2
             aria-selected=move || is_chosen().to_string()
             on:click=move |_| log.select(place)

@@ -98,13 +98,13 @@ fn FileBar() -> impl IntoView {
             <Icon glyph=Glyph::File />
             <strong>{name}</strong>
             <span class="soft number" title=format>
-                {about}
+                {move || about()}
             </span>
             <div class="acts">
                 <Show when=move || read.is_text()>
                     <button type="button" class="button plain" on:click=edit>
                         <Icon glyph=Glyph::Edit />
-                        {edit_label}
+                        {move || edit_label()}
                     </button>
                 </Show>
                 <button type="button" class="button plain" on:click=move |_| read.clear()>

@@ -52,7 +52,7 @@ pub fn Overview() -> impl IntoView {
     view! {
         <section class="story" aria-label="What the log shows">
             <div>
-                <h2>{headline}</h2>
+                <h2>{move || headline()}</h2>
                 {fault}
                 <ul class="units note">
                     {move || units().into_iter().take(UNITS).map(unit).collect_view()} {more}

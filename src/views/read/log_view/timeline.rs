@@ -152,7 +152,7 @@ pub fn Timeline() -> impl IntoView {
                     on:pointercancel=move |_| dragged.set(None)
                     on:keydown=keys
                 >
-                    {lanes} {band} {shown}
+                    {lanes} {move || band()} {move || shown()}
                     <span
                         class="key-cursor"
                         style:left=move || percent(at.get() as f64 + 0.5, stretches())

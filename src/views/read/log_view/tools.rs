@@ -5,6 +5,7 @@ use leptos::ev::SubmitEvent;
 use leptos::html;
 use leptos::prelude::*;
 
+use crate::components::choose::{Choose, choices};
 use crate::components::dialog::Dialog;
 use crate::components::icon::Glyph;
 use crate::components::menu::{Menu, MenuItem};
@@ -12,7 +13,7 @@ use crate::components::toast::Toasts;
 use crate::components::wide_table::WideTable;
 use crate::views::read::ReadState;
 use crate::views::read::editor::byte_offset;
-use crate::views::read::reading::{Choose, ReadingChoices};
+use crate::views::read::reading::ReadingChoices;
 use crate::views::read::times::{clock, duration};
 use crate::worker::messages::{Part, Request, Value, Which};
 use buslens::field::{Span, count, decimal, shortest};
@@ -284,8 +285,9 @@ fn Reading() -> impl IntoView {
     let log = read.log;
     let toasts = expect_context::<Toasts>();
     let field = NodeRef::<html::Input>::new();
-    let inputs = vec![("text", "Text"), ("binary", "Raw bytes of a line"), ("pcap", "Capture of a network")];
-    let numbers = vec![("hex", "Hex"), ("decimal", "Decimal")];
+    let inputs =
+        choices([("text", "Text"), ("binary", "Raw bytes of a line"), ("pcap", "Capture of a network")]);
+    let numbers = choices([("hex", "Hex"), ("decimal", "Decimal")]);
     let decimal = move || match read.choices().decimal {
         None => "",
         Some(true) => "decimal",
