@@ -41,7 +41,7 @@ pub use words::Sender;
 use crate::field::{Facts, Span};
 use columns::Columns;
 use dump::{Dump, Words};
-use line::{Alike, Run, Scan, Start};
+use line::{Alike, Like, Run, Scan, Start, Told};
 use words::Weight;
 
 /// How a text is to be read.
@@ -123,6 +123,9 @@ pub struct Reader {
     columns: Columns,
     /// The breaks of the run in hand, see [`Piece::breaks`].
     breaks: Vec<usize>,
+    /// How many pieces were given of the line in hand, and what was told of the last one.
+    given: usize,
+    told: Told,
 }
 
 /// A line without bytes that says something about the next ones.
@@ -265,7 +268,36 @@ impl Reader {
             return self.end_columns(sink);
         }
         let whole = !self.long && quote == 0 && self.form.marks.is_none() && self.form.flow.is_none();
-        let alike = whole && self.alike.read(line, &mut self.scan);
+        // Nothing in the lines before could say more of this one.
+        let apart = whole
+            && !self.form.counted
+            && self.header.is_none()
+            && self.list.bytes.is_empty()
+            && self.columns.is_empty();
+        let alike = whole
+            && match self.alike.read(line, &mut self.scan, apart) {
+                Like::None => false,
+                Like::Read => true,
+                Like::Told { told: Told { facts, sender }, bytes, time, pairs, port } => {
+                    self.scan.places.clear();
+                    self.scan.places.extend(pairs.places(bytes.len()));
+                    return sink(Event::Piece(Piece {
+                        bytes,
+                        decimal: None,
+                        breaks: &[],
+                        places: &self.scan.places,
+                        pairs: pairs.digits(),
+                        line: self.line,
+                        offset: self.offset,
+                        time: time.or(self.remembered.filter(|_| facts.bare)),
+                        sender,
+                        port: (!port.is_empty()).then_some(port),
+                        joins: false,
+                        facts,
+                    }));
+                }
+            };
+        self.given = 0;
         let row = if self.long || alike { None } else { self.dump.row(line) };
         if row.is_none() && !alike && self.dump.ends(line) {
             return;
@@ -322,6 +354,10 @@ impl Reader {
             return self.emit(line, &run, context, sink);
         }
         self.runs(line, time, marked.is_some(), sink);
+        let still = self.header.is_none() && self.columns.is_empty();
+        if apart && still && self.given == 1 && !self.told.facts.rest {
+            self.alike.tell(line, self.told);
+        }
     }
 
     /// Gives the runs of a line that can be bytes of a telegram.
@@ -386,13 +422,14 @@ impl Reader {
 
     /// Gives all bytes of a line that have a mark of their own, where words stand between them: `ADR 01H, CMD
     /// 03H, address 21H 02H`.
-    fn marked_bytes(&self, time: Option<i64>, sink: &mut dyn FnMut(Event<'_>)) {
+    fn marked_bytes(&mut self, time: Option<i64>, sink: &mut dyn FnMut(Event<'_>)) {
         let runs = || self.scan.runs.iter().filter(|run| run.marked);
         let longest = runs().map(Run::len).max().unwrap_or_default();
         let all: usize = runs().map(Run::len).sum();
         if all == longest || all < SHORTEST {
             return;
         }
+        self.given += 1;
         let bytes: Vec<u8> = runs().flat_map(|run| &self.scan.hex[run.first..run.end]).copied().collect();
         let places: Vec<Span> =
             runs().flat_map(|run| &self.scan.places[run.first..run.end]).copied().collect();
@@ -414,7 +451,8 @@ impl Reader {
 
     /// Gives a run with what is said of it.
     fn emit(&mut self, line: &[u8], run: &Run, context: Context, sink: &mut dyn FnMut(Event<'_>)) {
-        let Self { scan, header, form, breaks, .. } = self;
+        let Self { scan, header, form, breaks, told, .. } = self;
+        self.given += 1;
         let header = header.as_ref().filter(|_| context.bare || context.dumped || header_fits(scan));
         let alone = scan.near(run).iter().filter(|run| run.len() >= SHORTEST).count() <= 1;
         let after = scan.sender.filter(|(_, weight)| *weight == Weight::Strong && alone);
@@ -446,6 +484,8 @@ impl Reader {
             rest: context.rest,
             ..self::facts(line, run, scan)
         };
+        let sender = marks.or(sender).or(context.sender);
+        *told = Told { facts, sender };
         sink(Event::Piece(Piece {
             bytes,
             decimal,
@@ -458,7 +498,7 @@ impl Reader {
                 .time
                 .or(header.and_then(|header| header.time))
                 .or(self.remembered.filter(|_| context.dumped || context.bare)),
-            sender: marks.or(sender).or(context.sender),
+            sender,
             port: (!port.is_empty()).then_some(port),
             joins: context.joins,
             facts,
