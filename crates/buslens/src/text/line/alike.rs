@@ -78,7 +78,7 @@ struct Pattern {
     /// What stands between two bytes.
     gap: Vec<u8>,
     /// What stands behind the last one.
-    tail: Vec<u8>,
+    tail: Head,
     /// How many characters the bytes have, where others cannot have more or less.
     length: Option<usize>,
     /// Which of the runs they are.
@@ -88,7 +88,7 @@ struct Pattern {
     told: Option<Told>,
 }
 
-/// What stands before the bytes, where some digits may be other ones.
+/// What stands before or behind the bytes, where some digits may be other ones.
 #[derive(Debug)]
 struct Head {
     /// With a [`HOLE`] for each of these.
@@ -104,13 +104,16 @@ const HOLE: u8 = 0;
 /// So many bytes are no time and no address.
 const SHORTEST: usize = 5;
 
+/// So much stands between two bytes at most.
+const WIDEST: usize = 4;
+
 impl Alike {
     /// Reads a line, if it is like one before; with `told`, what was told of that one need not be read again.
     #[inline]
     pub fn read(&mut self, line: &[u8], scan: &mut Scan, told: bool) -> Like<'_> {
         let Self { patterns, bytes, .. } = self;
         let mut time = None;
-        let reads = |pattern: &Box<Pattern>| {
+        let mut reads = |pattern: &Pattern| {
             bytes.clear();
             let compared = pattern.compare(line, scan, bytes);
             compared.is_some_and(|found| {
@@ -118,7 +121,7 @@ impl Alike {
                 (told && pattern.told.is_some()) || pattern.take_over(line, bytes, found, scan)
             })
         };
-        let Some(place) = patterns.iter().position(reads) else { return Like::None };
+        let Some(place) = patterns.iter().position(|pattern| reads(pattern)) else { return Like::None };
         let before = place.saturating_sub(1);
         patterns.swap(before, place);
         (self.idle, self.latest) = (0, Some(before));
@@ -217,8 +220,8 @@ impl Pattern {
         let (index, run) = scan.runs.iter().enumerate().max_by_key(|(_, run)| run.len())?;
         let (before, own, tail) = (&line[..run.span.from], run.span.of(line), &line[run.span.to..]);
         let (mark, gap) = match run.style {
-            Style::Separated if !run.marked && (1..=2).contains(&run.gap) => (0, run.gap),
-            Style::Prefixed if (1..=2).contains(&run.gap) => (2, run.gap),
+            Style::Separated if !run.marked && (1..=WIDEST).contains(&run.gap) => (0, run.gap),
+            Style::Prefixed if (1..=WIDEST).contains(&run.gap) => (2, run.gap),
             Style::Contiguous if !run.marked && run.tokens == 1 => (0, 0),
             _ => return None,
         };
@@ -234,31 +237,37 @@ impl Pattern {
             return None;
         }
         let (mark, gap) = (&own[..mark], &own[step - gap..step]);
-        let ends = tail.iter().all(|c| c.is_ascii_whitespace() || matches!(c, b']' | b')' | b'}' | b'>'));
-        let length = (!ends).then_some(own.len());
+        let plain = tail.iter().all(|c| c.is_ascii_whitespace() || matches!(c, b']' | b')' | b'}' | b'>'));
+        let words = scan.runs.len() == index + 1
+            && !tail.iter().any(|c| is_digit(*c))
+            && !shows_characters(tail, gap.len());
+        let length = (!plain && !words).then_some(own.len());
         // What could be one number with the first byte.
         let apart = match before {
             [.., a, b':' | b'/'] => !is_digit(*a),
-            [.., c] => !matches!(c, b'-' | b'.' | b'#' | b'"' | b'\''),
+            [.., c] => !matches!(c, b'-' | b'.' | b'#'),
             [] => true,
         };
         // A date may go on as a time.
-        let date =
-            scan.time_place.is_some_and(|time| time.to + 4 > run.span.from) && gap.first() != Some(&b' ');
+        let time = scan.time_place;
+        let before_bytes = |time: &Span| time.from < run.span.from;
+        let date = time.filter(before_bytes).is_some_and(|time| time.to + 4 > run.span.from)
+            && gap.first() != Some(&b' ');
         let other = scan.runs[..index].last().map(|other| &before[other.span.to..]);
         let joins = other.is_some_and(|between| separator(between).is_some());
         // Others with so many bytes may be shown as characters behind them, and a backslash makes bytes of characters.
         let others = scan.runs.iter().filter(|run| run.len() >= SHORTEST).count() > 1
             || before.iter().chain(tail).any(|c| matches!(*c, HOLE | b'\\'));
-        let late = scan.time_place.is_some_and(|time| time.to > run.span.from);
-        if !apart || late || date || joins || others || gap.first() == Some(&b'#') || has_offset(line) {
+        if !apart || date || joins || others || gap.first() == Some(&b'#') || has_offset(line) {
             return None;
         }
-        let mut head = before.to_vec();
-        let time = scan.time_place;
+        let mut text = line.to_vec();
         if let Some(time) = time {
-            head[time.from..time.to].iter_mut().filter(|c| is_digit(**c)).for_each(|c| *c = HOLE);
+            text[time.from..time.to].iter_mut().filter(|c| is_digit(**c)).for_each(|c| *c = HOLE);
         }
+        let tail = text.split_off(run.span.to);
+        let mut head = text;
+        head.truncate(run.span.from);
         let mut at = 0;
         // Where decimal numbers are asked for, short ones are some by their value.
         while hex_only && at < before.len() {
@@ -270,8 +279,8 @@ impl Pattern {
             at += count.max(1);
         }
         let numbers = (0..run.first).filter(|at| head[scan.places[*at].from] == HOLE).collect();
-        let (mark, gap, tail) = (mark.to_vec(), gap.to_vec(), tail.to_vec());
-        let head = Head::new(head);
+        let (mark, gap) = (mark.to_vec(), gap.to_vec());
+        let [head, tail] = [head, tail].map(Head::new);
         Some(Self {
             head,
             time,
@@ -289,12 +298,13 @@ impl Pattern {
     /// Compares a line with this one: its bytes and its time, if it is like it.
     fn compare(&self, line: &[u8], scan: &Scan, bytes: &mut Vec<u8>) -> Option<Option<i64>> {
         let Self { head, mark, gap, tail, .. } = self;
-        let around = head.text.len() + tail.len();
+        let around = head.text.len() + tail.text.len();
         if self.length.is_some_and(|length| line.len() != around + length) {
             return None;
         }
         let (_, own) = head.split(line)?;
-        let own = if tail.is_empty() { own } else { own.strip_suffix(tail.as_slice())? };
+        let (own, behind) = own.split_at_checked(own.len().checked_sub(tail.text.len())?)?;
+        tail.split(behind)?;
         let (step, whole) = (mark.len() + 2 + gap.len(), own.len() + gap.len());
         let count = whole / step;
         if whole % step != 0 || count < SHORTEST || (gap.is_empty() && is_value(own)) {
@@ -314,10 +324,12 @@ impl Pattern {
         let (others, last) = own.split_at(own.len() - 2);
         match (gap.first(), gap.last()) {
             // The first and the last sign of what stands between tell all of it.
-            (Some(a), Some(b)) if mark.is_empty() => bytes.extend(others.chunks_exact(step).map(|at| {
-                same &= (at[2] == *a) & (at[step - 1] == *b);
-                byte(at)
-            })),
+            (Some(a), Some(b)) if mark.is_empty() && gap.len() <= 2 => {
+                bytes.extend(others.chunks_exact(step).map(|at| {
+                    same &= (at[2] == *a) & (at[step - 1] == *b);
+                    byte(at)
+                }))
+            }
             (None, _) => bytes.extend(others.chunks_exact(2).map(&mut byte)),
             _ => bytes.extend(others.chunks_exact(step).map(|at| {
                 same &= at.starts_with(mark) && at.ends_with(gap);
@@ -379,8 +391,7 @@ impl Pattern {
 
     /// Whether what stands behind the bytes could show them as characters.
     fn shows_characters(&self) -> bool {
-        let wide = matches!(self.tail.get(1), Some(b' ' | b'\t' | b'|')) && self.scan.runs[self.run].gap < 2;
-        self.length.is_some() && (wide || self.tail.first() == Some(&b'|'))
+        self.length.is_some() && shows_characters(&self.tail.text, self.scan.runs[self.run].gap)
     }
 
     /// See [`Scan::is_counted`], for a line like this one with so many bytes.
@@ -390,6 +401,12 @@ impl Pattern {
         let mut counts = others.filter(|(at, _)| *at < run || own);
         counts.any(|(_, other)| decimal(other.span.of(line)) == Some(count))
     }
+}
+
+/// Whether what stands behind bytes, which have such a gap between them, may show them as characters.
+fn shows_characters(tail: &[u8], gap: usize) -> bool {
+    let wide = matches!(tail.get(1), Some(b' ' | b'\t' | b'|')) && gap < 2;
+    wide || tail.first() == Some(&b'|')
 }
 
 /// Whether hex digits are a word or the bits of a number, by their value.
