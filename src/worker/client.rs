@@ -50,6 +50,8 @@ struct Running {
     reads: bool,
     /// It is not through with the file: it says something with each part of it.
     in_parts: bool,
+    /// How many bytes the file has.
+    size: f64,
     /// Ends when it has been silent for too long.
     watch: Option<Timeout>,
     /// They live as long as it does.
@@ -68,6 +70,8 @@ impl Drop for Running {
 /// A worker that says nothing for so long, in milliseconds, although it was asked, is gone: a browser
 /// that is short of memory may end it without a word.
 const PATIENCE: u32 = 30_000;
+/// Bytes of a file for which it may take a millisecond more: some questions are about all of it.
+const BYTES_PER_MILLISECOND: f64 = 32_768.0;
 /// The same where a file of all telegrams is written.
 const PATIENCE_WITH_FILES: u32 = 300_000;
 
@@ -98,7 +102,8 @@ impl Client {
             Ok(log) => {
                 let size = bytes.len() as u64;
                 let mut reader = Reader::new(log, Memory(bytes), size);
-                let answers = reader.opening();
+                let mut answers = Vec::new();
+                reader.opening(&mut |answer| answers.push(answer));
                 self.here.replace(Some(reader));
                 answers.into_iter().for_each(|answer| (self.hear)(answer, None));
             }
@@ -170,8 +175,12 @@ impl Client {
         match kept.as_mut() {
             Some(running) => {
                 running.reads = true;
+                if let Some(file) = beside.dyn_ref::<Blob>() {
+                    running.size = file.size();
+                }
                 let writes = matches!(request, Request::Export { .. } | Request::PassOn(_));
-                running.watch = Some(self.watch(if writes { PATIENCE_WITH_FILES } else { PATIENCE }));
+                let patience = if writes { PATIENCE_WITH_FILES } else { PATIENCE };
+                running.watch = Some(self.watch(patience, running.size));
                 match &mut running.waiting {
                     Some(waiting) => waiting.push(mail),
                     None => drop(running.worker.post_message(&mail)),
@@ -209,6 +218,7 @@ impl Client {
             waiting: Some(Vec::new()),
             reads: false,
             in_parts: false,
+            size: 0.0,
             watch: None,
             _hear: hear,
             _fail: fail,
@@ -223,9 +233,9 @@ impl Client {
                 Answer::Ready(_) | Answer::Refused(_) => running.in_parts = false,
                 _ => {}
             }
-            running.watch = running.in_parts.then(|| self.watch(PATIENCE));
+            running.watch = running.in_parts.then(|| self.watch(PATIENCE, running.size));
             if matches!(answer, Answer::Hello) {
-                running.watch = Some(self.watch(PATIENCE));
+                running.watch = Some(self.watch(PATIENCE, running.size));
                 for mail in running.waiting.take().unwrap_or_default() {
                     // It takes whatever this page writes.
                     let _ = running.worker.post_message(&mail);
@@ -253,9 +263,10 @@ impl Client {
         (self.hear)(Answer::Lost(why.to_owned()), None);
     }
 
-    fn watch(&self, patience: u32) -> Timeout {
+    /// Ends a worker that says nothing for longer than `patience`, and what a file of this size adds to it.
+    fn watch(&self, patience: u32, size: f64) -> Timeout {
         let me = self.me.clone();
-        Timeout::new(patience, move || {
+        Timeout::new(patience.saturating_add((size / BYTES_PER_MILLISECOND) as u32), move || {
             if let Some(client) = me.upgrade() {
                 client.failed();
             }

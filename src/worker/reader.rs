@@ -95,18 +95,18 @@ impl<S: Source> Reader<S> {
         ]
     }
 
-    /// The file ends, or is not read any further.
-    pub fn finish(&mut self) -> Vec<Answer> {
+    /// The file ends, or is not read any further: tells of it what there is to say.
+    pub fn finish(&mut self, tell: &mut dyn FnMut(Answer)) {
         self.log.finish();
         let shown = self.known > 0;
         self.grow();
-        let mut answers = self.opening();
         // What the page shows of the list stays where it is.
-        if shown && matches!(self.chosen, Chosen::All(_)) {
-            answers.pop();
-            answers.push(Answer::Grown(self.telegrams()));
-        }
-        answers
+        let stays = shown && matches!(self.chosen, Chosen::All(_));
+        let telegrams = self.telegrams();
+        self.opening(&mut |answer| match answer {
+            Answer::List(_) if stays => tell(Answer::Grown(telegrams)),
+            answer => tell(answer),
+        });
     }
 
     fn grow(&mut self) {
@@ -116,24 +116,22 @@ impl<S: Source> Reader<S> {
         }
     }
 
-    /// What is said of a log when it is read.
-    pub fn opening(&mut self) -> Vec<Answer> {
+    /// Tells what there is to say of a log that is read, each as soon as it is known.
+    pub fn opening(&mut self, tell: &mut dyn FnMut(Answer)) {
+        tell(Answer::Ready(Box::new(self.log.overview())));
         self.findings = self.log.findings(&self.source);
         let found = |finding: &Finding| Found {
             code: finding.code.to_owned(),
             text: finding.text.sentence() + ".",
             evidence: finding.evidence.clone(),
         };
-        vec![
-            Answer::Ready(Box::new(self.log.overview())),
-            Answer::Findings(self.findings.iter().map(found).collect()),
-            Answer::Beside {
-                proposals: self.log.proposals(&self.source).iter().map(Proposed::of).collect(),
-                seen: self.log.seen(&self.source),
-            },
-            Answer::Lanes(self.log.lanes(None, STRETCHES)),
-            Answer::List(self.chosen.len()),
-        ]
+        tell(Answer::Findings(self.findings.iter().map(found).collect()));
+        tell(Answer::Beside {
+            proposals: self.log.proposals(&self.source).iter().map(Proposed::of).collect(),
+            seen: self.log.seen(&self.source),
+        });
+        tell(Answer::Lanes(self.log.lanes(None, STRETCHES)));
+        tell(Answer::List(self.chosen.len()));
     }
 
     /// The answers to a request, but for exports, which may be large: see [`Reader::export`].
@@ -141,7 +139,9 @@ impl<S: Source> Reader<S> {
         match request {
             Request::SetUp(how) => {
                 self.log.set_options(how.options());
-                self.opening()
+                let mut answers = Vec::new();
+                self.opening(&mut |answer| answers.push(answer));
+                answers
             }
             Request::List(choice) => {
                 self.choose(choice);

@@ -196,7 +196,7 @@ impl Desk {
     /// The file is read; returns what waited for that.
     fn finish(&mut self, turn: u32) -> Vec<Request> {
         let Some(reader) = self.reader.as_mut().filter(|_| self.turn == turn) else { return Vec::new() };
-        reader.finish().iter().for_each(tell);
+        reader.finish(&mut |answer| tell(&answer));
         self.complete = true;
         std::mem::take(&mut self.waiting)
     }

@@ -1,15 +1,19 @@
 //! `cargo bench --bench large -- 4`: logs of 1, 2 and 4 GB (1 GB at most without a number), read in parts as the page's
 //! worker does: when there is something to see, how long all of it takes, both in time of the processor, and what
-//! memory it takes at most.
+//! memory it takes at most. Then how much quicker several threads are, each with a slice of a log of at most 1 GB, and
+//! whether that gives the same; by the clock, in turns.
 //!
 //! The logs repeat a day of telegrams, which is all that is in memory of them.
 
 use std::fs;
+use std::ops::Range;
 use std::process::Command;
+use std::thread;
+use std::time::{Duration, Instant};
 
 use buslens::field::hex;
 use buslens::tool::Options;
-use buslens::tool::log::{BEGINNING, Filter, Input, Log, Reading, Source, Wanted};
+use buslens::tool::log::{BEGINNING, Filter, Input, Log, Reading, Source, Wanted, join};
 
 #[path = "../tests/logs/generator.rs"]
 #[allow(dead_code, reason = "the tests use the rest")]
@@ -40,21 +44,24 @@ impl Source for Repeated {
 
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with("--")).collect();
-    if let [what, gigabytes] = words.as_slice() {
+    if let [what, gigabytes, ..] = words.as_slice() {
         let (day, input) = if what == "stream" { (stream(), Input::Binary) } else { (text(), Input::Auto) };
         // Only whole days, so that no telegram is cut.
         let days = gigabytes.parse::<f64>().expect("a number") * 1e9 / day.len() as f64;
         let size = days.ceil() as u64 * day.len() as u64;
-        return read(what, &Repeated { day, size }, input);
+        let file = Repeated { day, size };
+        return if words.len() > 2 { compare(what, &file, input) } else { read(what, &file, input) };
     }
     let most = words.first().and_then(|word| word.parse::<f64>().ok()).unwrap_or(1.0);
     for what in ["stream", "text"] {
-        for gigabytes in [most / 4.0, most / 2.0, most] {
-            // Each in a process of its own, so that the memory is its own.
+        // Each in a process of its own, so that the memory is its own.
+        let run = |gigabytes: f64, more: &[&str]| {
             let program = std::env::current_exe().expect("this program");
-            let ran = Command::new(program).args([what, &gigabytes.to_string()]).status();
+            let ran = Command::new(program).args([what, &gigabytes.to_string()]).args(more).status();
             assert!(ran.is_ok_and(|status| status.success()));
-        }
+        };
+        [most / 4.0, most / 2.0, most].into_iter().for_each(|gigabytes| run(gigabytes, &[]));
+        run(most.min(1.0), &["slices"]);
     }
 }
 
@@ -85,22 +92,103 @@ fn read(what: &str, file: &Repeated, input: Input) {
     log.finish();
     let whole = processor_time() - began;
     let telegrams = log.entries().len();
+    // What is said of it then is worked out in silence.
+    let silence = processor_time();
+    assert!(!log.overview().headline.is_empty());
+    log.findings(file);
+    log.proposals(file);
+    log.seen(file);
+    log.lanes(None, 200);
+    let silence = processor_time() - silence;
     let peak = memory("VmHWM:").saturating_sub(before);
     let wrong = Filter { wanted: Wanted::Errors, ..Filter::default() };
     let answer = processor_time();
     let found = log.filtered(&wrong, file, file.size).len();
     println!(
-        "{what} of {:.2} GB, {:.1} million telegrams: first rows after {:.2} s, all after {:.1} s ({:.0} MB/s), {found} \
-         wrong ones in {:.2} s, {:.0} MB of memory at most ({:.1} bytes a telegram kept)",
+        "{what} of {:.2} GB, {:.1} million telegrams: first rows after {:.2} s, all after {:.1} s ({:.0} MB/s), \
+         summed up in {:.2} s, {found} wrong ones in {:.2} s, {:.0} MB of memory at most ({:.1} bytes a telegram kept)",
         file.size as f64 / 1e9,
         telegrams as f64 / 1e6,
         seen.unwrap_or(whole).as_secs_f64(),
         whole.as_secs_f64(),
         file.size as f64 / 1e6 / whole.as_secs_f64(),
+        silence.as_secs_f64(),
         (processor_time() - answer).as_secs_f64(),
         peak as f64 / 1e6,
         log.memory() as f64 / telegrams as f64,
     );
+}
+
+/// Reads a log by one thread and by as many as there are, each with a slice, and prints what that gains.
+fn compare(what: &str, file: &Repeated, input: Input) {
+    const ROUNDS: usize = 3;
+    let threads = thread::available_parallelism().map_or(1, usize::from).min(4);
+    let (mut one, mut several) = (Duration::MAX, Duration::MAX);
+    for _ in 0..ROUNDS {
+        let began = Instant::now();
+        let whole = read_slices(file, input, 1);
+        one = one.min(began.elapsed());
+        let began = Instant::now();
+        let joined = read_slices(file, input, threads);
+        several = several.min(began.elapsed());
+        assert!(
+            joined.statistics() == whole.statistics() && joined.lines() == whole.lines(),
+            "it is the same"
+        );
+        let same = joined.entries().iter().zip(whole.entries()).all(|(joined, whole)| {
+            (joined.offset, joined.partner(), joined.time()) == (whole.offset, whole.partner(), whole.time())
+        });
+        assert!(same, "its telegrams are the same");
+    }
+    println!(
+        "{what} of {:.2} GB by {threads} threads: {:.1} s, {:.2} times as quick as one ({:.1} s)",
+        file.size as f64 / 1e9,
+        several.as_secs_f64(),
+        one.as_secs_f64() / several.as_secs_f64(),
+        one.as_secs_f64(),
+    );
+}
+
+/// Reads a log in at most so many slices at once.
+fn read_slices(file: &Repeated, input: Input, most: usize) -> Log {
+    const PIECE: u64 = 4 << 20;
+    const LEAST: u64 = 32 << 20;
+    let reading = Reading { input, ..Reading::default() };
+    let open = || {
+        let log = Log::open(&file.read(0, BEGINNING), file.size, &reading, Options::default());
+        log.expect("a log")
+    };
+    let push = |log: &mut Log, from: u64, to: u64| {
+        for at in (from..to).step_by(PIECE as usize) {
+            assert!(log.push(&file.read(at, PIECE.min(to - at) as usize)), "there is memory for all of it");
+        }
+        if to == file.size {
+            log.finish();
+        }
+    };
+    let mut first = open();
+    while first.divisible_from().is_none() && first.taken() < file.size {
+        let part = file.read(first.taken(), 1 << 20);
+        first.push(&part);
+    }
+    let beginning = first.taken();
+    let slices = first.slices(file.size, most, LEAST);
+    let others: Vec<Log> = thread::scope(|scope| {
+        let read = |slice: &Range<u64>| {
+            let Range { start, end } = *slice;
+            scope.spawn(move || {
+                let mut log = open();
+                push(&mut log, 0, beginning);
+                let at = log.jump(start);
+                push(&mut log, at, end);
+                log
+            })
+        };
+        let others: Vec<_> = slices.iter().skip(1).map(read).collect();
+        push(&mut first, beginning, slices.first().map_or(beginning, |slice| slice.end));
+        others.into_iter().map(|other| other.join().expect("it is read")).collect()
+    });
+    join(first, others, file, file.size)
 }
 
 /// What the system says of the memory of this program, in bytes; 0 where it says nothing.

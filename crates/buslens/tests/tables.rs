@@ -7,6 +7,8 @@ mod damage;
 mod evidence;
 #[path = "tables/found.rs"]
 mod found;
+#[path = "tables/long_logs.rs"]
+mod long_logs;
 #[path = "tables/pieces.rs"]
 mod pieces;
 #[path = "tables/protocols.rs"]

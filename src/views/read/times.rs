@@ -1,5 +1,6 @@
 //! Times and lengths of time as lists and pictures show them.
 
+use buslens::field::decimal;
 use buslens::tool::log::time_text;
 
 /// The time of day without its date, which the overview tells.
@@ -39,20 +40,19 @@ pub fn stretch(from: i64, to: i64) -> String {
 pub fn duration(micros: i64) -> String {
     let of = micros as f64;
     match micros.unsigned_abs() {
-        0..10_000 => format!("{:.1} ms", of / 1e3),
-        10_000..2_000_000 => format!("{:.0} ms", of / 1e3),
-        2_000_000..100_000_000 => format!("{:.1} s", of / 1e6),
-        _ => format!("{:.0} s", of / 1e6),
+        0..10_000 => decimal(of / 1e3, 1) + " ms",
+        10_000..2_000_000 => decimal(of / 1e3, 0) + " ms",
+        2_000_000..100_000_000 => decimal(of / 1e6, 1) + " s",
+        _ => decimal(of / 1e6, 0) + " s",
     }
 }
 
 /// Milliseconds since the telegram before: "+22".
 pub fn delta(micros: i64) -> String {
     let millis = micros as f64 / 1e3;
-    match micros.unsigned_abs() {
-        0..10_000 => format!("{millis:+.1}"),
-        _ => format!("{millis:+.0}"),
-    }
+    let sign = if micros < 0 { "" } else { "+" };
+    let places = if micros.unsigned_abs() < 10_000 { 1 } else { 0 };
+    format!("{sign}{}", decimal(millis, places))
 }
 
 #[cfg(test)]

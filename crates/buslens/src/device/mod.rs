@@ -365,19 +365,20 @@ impl Profile {
     /// The addresses of what is called so, first and last: a part of a name or an identifier, or a
     /// block with its number, such as `universal channel 6`.
     pub fn addresses(&self, name: &str) -> Vec<(u16, u16)> {
-        let name = name.to_lowercase();
+        let name = name.to_ascii_lowercase();
         let (words, number) = match name.rsplit_once(' ') {
             Some((words, number)) => (words, number.parse::<u64>().ok()),
             None => (name.as_str(), None),
         };
         let parameters = self.parameters.iter().copied().flatten();
         let called = |parameter: &&Parameter| {
-            parameter.id.eq_ignore_ascii_case(&name) || parameter.spec.label.to_lowercase().contains(&name)
+            parameter.id.eq_ignore_ascii_case(&name)
+                || parameter.spec.label.to_ascii_lowercase().contains(&name)
         };
         let mut found: Vec<(u16, u16)> =
             parameters.filter(called).map(|parameter| (parameter.address, parameter.address)).collect();
         for area in self.areas {
-            let label = area.spec.label.to_lowercase();
+            let label = area.spec.label.to_ascii_lowercase();
             let block = number.zip(area.first).and_then(|(number, first)| number.checked_sub(first));
             if let Some(block) = block.filter(|block| *block < area.count.into() && label.contains(words)) {
                 // Fewer than there are blocks, so it fits.

@@ -282,7 +282,7 @@ fn cut(bytes: &[u8], splitter: &Splitter, waiting: Option<Waiting>) -> Option<Re
     }
     let even = count % 2 == 0 || matches!(code, 1 | 2);
     let missing = response?.checked_sub(bytes.len())?;
-    if code & EXCEPTION != 0 || !even || count == 0 || count > 250 || !matches!(code, 1..=4 | 23 | 100) {
+    if code & EXCEPTION != 0 || !even || count == 0 || !matches!(code, 1..=4 | 23 | 100) {
         return None;
     }
     let check = if missing == 1 { 8 } else { 0 };
@@ -326,15 +326,15 @@ fn over_profibus(bytes: &[u8]) -> Option<Reading> {
     let reading = |bits, verdict, cut| Some(Reading { cut, ..whole(&PROTOCOL, verdict, bits) });
     let ends = bytes.last() == Some(&profibus_fdl::END);
     match (bytes, Fdl::length(bytes)) {
-        ([SD2, a, b, SD2, ..], Some(length)) if a == b && length == bytes.len() => {
-            reading(24 + WRONG, verdict(&PROTOCOL, bytes), false)
-        }
         // M-Bus begins its frames in the same way, but has other codes where a control byte is.
         ([SD2, a, b, SD2, _, _, control, ..], Some(length))
             if a == b && length > bytes.len() && !ends && Fdl::is_control(*control) =>
         {
             let checked = verdict(&PROTOCOL, bytes) == Verdict::Right;
             reading(16 + CUT, if checked { Verdict::Right } else { Verdict::Unchecked }, true)
+        }
+        ([SD2, a, b, SD2, ..], Some(length)) if a == b && length == bytes.len() => {
+            reading(24 + WRONG, verdict(&PROTOCOL, bytes), false)
         }
         ([SD2, _, _, SD2, ..], _) if ends => reading(20 + WRONG, verdict(&PROTOCOL, bytes), false),
         ([profibus_fdl::SC], _) => reading(8, Verdict::NoCheck, false),

@@ -16,7 +16,7 @@ pub fn turns(leanings: &[i32]) -> Vec<Guess> {
         if !alternate {
             return self::leaning(*leaning);
         }
-        let direction = if index.is_multiple_of(2) == (request_first > 0) {
+        let direction = if index.is_multiple_of(2) == request_first.is_positive() {
             Direction::Request
         } else {
             Direction::Response

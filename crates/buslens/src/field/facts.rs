@@ -1,5 +1,5 @@
 /// What a text says of bytes in it, besides the bytes themselves.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Facts {
     /// Digits behind a colon, as Modbus ASCII has them.
     pub colon: bool,

@@ -17,7 +17,9 @@ pub use in_order::{in_order, in_order_by};
 pub use message::{Argument, Message};
 pub use problem::{Problem, Severity};
 pub use spec::{Format, Name, Order, Range, Role, Spec};
-pub use value::{Check, Value, escaped, float, hex, hex_value, number_text, parse_float, unescaped};
+pub use value::{
+    Check, Value, decimal, escaped, float, hex, hex_value, number_text, parse_float, shortest, unescaped,
+};
 
 /// A run of bytes: of a telegram, or of the text that it was read from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]

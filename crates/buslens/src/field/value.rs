@@ -166,6 +166,34 @@ pub fn float(raw: u64, width: usize) -> String {
     text.strip_suffix(".0").unwrap_or(text).replace(".0e", "e").replace('-', "\u{2212}")
 }
 
+/// A number as short as it can be told apart from its neighbours.
+pub fn shortest(value: f64) -> String {
+    float(value.to_bits(), 8)
+}
+
+/// A number with so many places behind the point, at most 9; "0.0" for what is no number.
+///
+/// The standard library does the same, for 20 kB in the page.
+///
+/// ```
+/// use buslens::field::decimal;
+///
+/// assert_eq!(decimal(2.05, 1), "2.1");
+/// assert_eq!(decimal(-0.04, 1), "-0.0");
+/// assert_eq!(decimal(99.6, 0), "100");
+/// ```
+pub fn decimal(value: f64, places: u32) -> String {
+    let one = 10_u64.pow(places.min(9));
+    // What is larger than the type is its largest, as is everywhere with `as`.
+    let rounded = (value.abs() * one as f64 + 0.5) as u64;
+    let sign = if value.is_sign_negative() { "-" } else { "" };
+    let whole = rounded / one;
+    match places {
+        0 => format!("{sign}{whole}"),
+        _ => format!("{sign}{whole}.{:0digits$}", rounded % one, digits = places as usize),
+    }
+}
+
 /// The bits of the number that `text` writes, in `width` bytes; `None` where it is no number, or one
 /// that is too large.
 ///

@@ -26,7 +26,7 @@ pub enum Begins {
 }
 
 /// The request that waits for its response.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Waiting {
     pub unit: u8,
     pub function: u8,

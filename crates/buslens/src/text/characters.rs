@@ -25,7 +25,9 @@ pub fn character(text: &[u8]) -> (u8, usize) {
             (byte, 2)
         }
         // A letter of Latin-1 in UTF-8 is its byte.
-        [lead @ (0xC2 | 0xC3), next, ..] if (0x80..0xC0).contains(next) => ((lead & 3) << 6 | next & 0x3F, 2),
+        [lead @ (0xC2 | 0xC3), next, ..] if (0x80..0xC0).contains(next) => {
+            (((lead & 3) << 6) + (next & 0x3F), 2)
+        }
         [c, ..] => (*c, 1),
         [] => (0, 1),
     }
@@ -237,7 +239,7 @@ pub struct Word {
 
 /// The word that begins at `at`; it may be empty.
 pub fn word(line: &[u8], at: usize) -> Word {
-    let mut word = Word { to: at, all: DIGIT | HEX, any: 0 };
+    let mut word = Word { to: at, all: u8::MAX, any: 0 };
     loop {
         let rest = line.get(word.to..).unwrap_or_default();
         let class = rest.first().map_or(0, |c| CLASSES[usize::from(*c)]);
@@ -282,9 +284,9 @@ pub static DIGITS: [u8; 256] = {
 
 /// The value of up to two hex digits.
 pub fn hex_value(digits: &[u8]) -> u8 {
-    digits
-        .iter()
-        .fold(0, |value, c| value << 4 | (if is_digit(*c) { c - b'0' } else { (c | 32) - b'a' + 10 }))
+    digits.iter().fold(0, |value, c| {
+        value * 16 + if is_digit(*c) { c - b'0' } else { c.to_ascii_lowercase() - b'a' + 10 }
+    })
 }
 
 #[cfg(test)]

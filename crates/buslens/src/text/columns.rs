@@ -5,6 +5,8 @@
 //! number by number, counted from the beginning and from the end of the line. What comes out of a column is
 //! only a telegram if its check is right.
 
+use std::hash::{Hash, Hasher};
+
 use super::line::Scan;
 use crate::field::Span;
 
@@ -19,7 +21,7 @@ pub(super) struct Columns {
 }
 
 /// Bytes below each other.
-#[derive(Debug)]
+#[derive(Debug, Hash)]
 pub(super) struct Column {
     key: Key,
     pub bytes: Vec<u8>,
@@ -29,7 +31,7 @@ pub(super) struct Column {
 }
 
 /// Which column of its line a number is in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Key {
     /// Behind so many bars.
     Cell(usize),
@@ -48,6 +50,14 @@ const MOST_LINES: usize = 600;
 const MOST_NUMBERS: usize = 8;
 
 impl Columns {
+    /// The state behind so many lines, see [`Reader::hash_state`](super::Reader::hash_state).
+    pub fn hash_state(&self, line: u32, hasher: &mut impl Hasher) {
+        (self.lines, &self.columns).hash(hasher);
+        if self.lines > 0 {
+            (self.offset, line - self.line).hash(hasher);
+        }
+    }
+
     /// Takes a line, if it can be one of a block.
     pub fn take(&mut self, text: &[u8], scan: &Scan, line: u32, offset: u64) -> bool {
         let count = scan.hex.len();
@@ -102,6 +112,10 @@ impl Columns {
         column.places.push(place);
     }
 
+    pub fn is_empty(&self) -> bool {
+        self.lines == 0
+    }
+
     /// The block ends: its columns, with the number and the place of its first line.
     pub fn end(&mut self) -> (u32, u64, Vec<Column>) {
         /// Every telegram has at least so many bytes.
@@ -110,9 +124,5 @@ impl Columns {
         let mut columns = std::mem::take(&mut self.columns);
         columns.retain(|column| lines >= SHORTEST && column.bytes.len() >= SHORTEST);
         (self.line, self.offset, columns)
-    }
-
-    pub fn is_empty(&self) -> bool {
-        self.lines == 0
     }
 }

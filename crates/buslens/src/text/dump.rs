@@ -7,7 +7,7 @@ use crate::field::Span;
 
 /// Follows the offsets from row to row. A dump of a conversation counts those of each side by themselves, and
 /// something before the offset tells the two apart: `TX 0010:`, or only how far the row is indented.
-#[derive(Debug, Default)]
+#[derive(Debug, Hash, Default)]
 pub struct Dump {
     streams: Vec<Stream>,
     /// The stream of the last row.
@@ -15,7 +15,7 @@ pub struct Dump {
 }
 
 /// Rows whose offsets follow each other.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Hash)]
 struct Stream {
     /// What stands before the offset of each row.
     before: u32,
@@ -91,7 +91,7 @@ impl Dump {
     /// Whether a line is the offset behind the last row, which od and hexdump write by itself.
     pub fn ends(&self, line: &[u8]) -> bool {
         let latest = self.streams.get(self.latest);
-        let Some(next) = latest.map(|stream| stream.next).filter(|next| *next > 0) else { return false };
+        let Some(next) = latest.map(|stream| stream.next) else { return false };
         let digits = line.trim_ascii();
         let text = std::str::from_utf8(digits).ok().filter(|_| (4..=16).contains(&digits.len()));
         text.is_some_and(|text| {
@@ -182,11 +182,9 @@ fn next_number(line: &[u8], mut at: usize) -> Option<usize> {
     const FAR: usize = 80;
     while at < FAR {
         let digits: &[u8; 4] = line.get(at..)?.first_chunk()?;
-        let other = |place: &usize| DIGITS[usize::from(digits[*place])] > 15;
-        match (0..digits.len()).rev().find(other) {
-            // An x may be the second one: `0x0010`.
-            Some(place @ 2..) if digits[place] == b'x' => at += place - 1,
-            Some(place) if place != 1 || digits[place] != b'x' => at += place + 1,
+        // An x may be the second one: `0x0010`.
+        match digits.iter().rposition(|c| DIGITS[usize::from(*c)] > 15 && *c != b'x') {
+            Some(place) => at += place + 1,
             _ if MARKS[usize::from(line[at - 1])] && begins_offset(&line[at..]) => return Some(at),
             _ => at += 1,
         }

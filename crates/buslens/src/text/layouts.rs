@@ -153,6 +153,7 @@ mod tests {
     fn keys_are_unique() {
         for (index, layout) in LAYOUTS.iter().enumerate() {
             assert!(LAYOUTS[index + 1..].iter().all(|other| other.key != layout.key), "{}", layout.key);
+            assert_eq!(Layout::of(layout.key).map(|found| found.name), Some(layout.name));
         }
     }
 }

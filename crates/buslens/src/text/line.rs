@@ -371,7 +371,7 @@ impl Scan {
     /// Whether what follows the open run shows its bytes as characters.
     fn is_column(&self, line: &[u8], run: &Run) -> bool {
         let rest = &line[run.span.to..];
-        let wide = rest.len() > 1 && matches!(rest[1], b' ' | b'\t' | b'|') && run.gap < 2;
+        let wide = rest.len() > 1 && matches!(rest[1], b' ' | b'\t' | b'|');
         let bytes = &self.hex[run.first..run.end];
         if !wide && rest[0] != b'|' {
             return false;
@@ -398,7 +398,7 @@ impl Scan {
             }
             shown.all(|byte| *byte == b' ')
         };
-        blank > 0 && text.len() <= blank + 3 * bytes.len() && (1..=blank).any(shows)
+        text.len() <= blank + 3 * bytes.len() && (1..=blank).any(shows)
     }
 }
 

@@ -38,6 +38,8 @@ pub use marks::{Marks, Place};
 pub use typed::{Line, Remark, bytes, looks_typed, remarks};
 pub use words::Sender;
 
+use std::hash::{Hash, Hasher};
+
 use crate::field::{Facts, Span};
 use columns::Columns;
 use dump::{Dump, Words};
@@ -115,8 +117,8 @@ pub struct Reader {
     /// The line in hand is so long that its beginning was read already.
     long: bool,
     header: Option<Header>,
-    /// The time of a line without bytes, for the dump below it.
-    remembered: Option<i64>,
+    /// The time of a line without bytes, for the dump below it, and that line.
+    remembered: Option<(i64, u32)>,
     /// The last line without bytes begins an array of a program.
     array: bool,
     list: List,
@@ -221,6 +223,37 @@ impl Reader {
         self.drop_header(sink);
     }
 
+    /// Goes on elsewhere in the file, perhaps within a line, behind so many.
+    pub fn jump(&mut self, offset: u64, line: u32) {
+        let form = std::mem::take(&mut self.form);
+        let (alike, dump) = (std::mem::take(&mut self.alike), std::mem::take(&mut self.dump));
+        *self = Self { alike, dump, offset, line, long: true, ..Self::new(form) };
+    }
+
+    /// The file passes a mark: what stands far before it says nothing any more.
+    pub fn pass_mark(&mut self) {
+        /// A dump below a line with its time has no more.
+        const FAR: u32 = 64;
+        let line = self.line;
+        self.remembered.take_if(|(_, remembered)| line - *remembered > FAR);
+    }
+
+    /// All that what comes next hangs on; lines are counted from here.
+    pub fn hash_state(&self, hasher: &mut impl Hasher) {
+        (&self.dump, &self.carry, self.offset, self.after_return, self.long, self.array).hash(hasher);
+        self.remembered.map(|(time, line)| (time, self.line - line)).hash(hasher);
+        if let Some(Header { time, sender, port, line, offset, row, number, leftovers }) = &self.header {
+            let row = if *row == 0 { u32::MAX } else { self.line - row };
+            (time, sender, port, self.line - line, offset, row, number, leftovers).hash(hasher);
+        }
+        let List { bytes, decimal, both, places, breaks, line, offset, facts, sender, time } = &self.list;
+        if !bytes.is_empty() {
+            (bytes, decimal, both, places, breaks, self.line - line, offset, facts, sender, time)
+                .hash(hasher);
+        }
+        self.columns.hash_state(self.line, hasher);
+    }
+
     /// How many lines were read.
     pub fn lines(&self) -> u32 {
         self.line
@@ -267,14 +300,15 @@ impl Reader {
             self.end_list(sink);
             return self.end_columns(sink);
         }
-        let whole = !self.long && quote == 0 && self.form.marks.is_none() && self.form.flow.is_none();
         // Nothing in the lines before could say more of this one.
-        let apart = whole
+        let apart = !self.long
             && !self.form.counted
+            && self.form.marks.is_none()
+            && self.form.flow.is_none()
             && self.header.is_none()
             && self.list.bytes.is_empty()
             && self.columns.is_empty();
-        let alike = whole
+        let alike = !self.long
             && match self.alike.read(line, &mut self.scan, apart) {
                 Like::None => false,
                 Like::Read => true,
@@ -289,7 +323,7 @@ impl Reader {
                         pairs: pairs.digits(),
                         line: self.line,
                         offset: self.offset,
-                        time: time.or(self.remembered.filter(|_| facts.bare)),
+                        time: time.or(self.remembered.filter(|_| facts.bare).map(|(time, _)| time)),
                         sender,
                         port: (!port.is_empty()).then_some(port),
                         joins: false,
@@ -311,7 +345,7 @@ impl Reader {
             _ => {
                 let start = Start { from: begins.max(quote), in_row: begins > 0 };
                 self.scan.read(line, start, self.form.numbers);
-                if whole && row.is_none() {
+                if !self.long && row.is_none() {
                     self.alike.learn(line, &self.scan);
                 }
             }
@@ -365,8 +399,7 @@ impl Reader {
         // A digit that is left over is being typed.
         let runs = self.scan.runs.iter().filter(|run| run.span.len() > 1).count().max(1);
         let bare = self.scan.words == 0 && self.scan.time.is_none() && runs == 1;
-        let joined =
-            bare && self.header.as_ref().is_some_and(|header| header.row > 0 && header.row + 1 == self.line);
+        let joined = bare && self.header.as_ref().is_some_and(|header| header.row + 1 == self.line);
         // Rows below a header end where another line comes: what is said in it is said of them only.
         self.header.take_if(|header| header.row > 0 && !joined);
         let several = self.scan.runs.iter().any(|run| run.len() >= SHORTEST);
@@ -497,7 +530,7 @@ impl Reader {
             time: context
                 .time
                 .or(header.and_then(|header| header.time))
-                .or(self.remembered.filter(|_| context.dumped || context.bare)),
+                .or(self.remembered.filter(|_| context.dumped || context.bare).map(|(time, _)| time)),
             sender,
             port: (!port.is_empty()).then_some(port),
             joins: context.joins,
@@ -530,7 +563,7 @@ impl Reader {
             if time.is_some() {
                 self.drop_header(sink);
             }
-            self.remembered = time;
+            self.remembered = time.map(|time| (time, self.line));
             sink(Event::Unread { line: self.line, offset: self.offset });
         }
     }
@@ -629,9 +662,6 @@ impl Reader {
     }
 
     fn end_columns(&mut self, sink: &mut dyn FnMut(Event<'_>)) {
-        if self.columns.is_empty() {
-            return;
-        }
         let sender = self.header.as_ref().and_then(|header| header.sender);
         let (line, offset, columns) = self.columns.end();
         for column in &columns {
@@ -704,7 +734,7 @@ fn pairs(line: &[u8], bytes: &[u8], places: &[Span]) -> Option<(usize, u8)> {
 pub fn pair(text: &[u8], at: usize) -> Option<u8> {
     let [high, low] = *text.get(at..)?.first_chunk()?;
     let digit = |c: u8| (c as char).to_digit(16);
-    Some((digit(high)? << 4 | digit(low)?) as u8)
+    Some((digit(high)? * 16 + digit(low)?) as u8)
 }
 
 /// Whether a colon or the like stands before a run.

@@ -19,8 +19,7 @@ pub fn at(line: &[u8], at: usize) -> Option<Found> {
         // Between date and time: a blank, a T, a comma.
         let gap =
             line[to..].iter().take(3).take_while(|c| matches!(c, b' ' | b'T' | b't' | b',' | b'_')).count();
-        let of_day = (gap > 0).then(|| of_day(line, to + gap)).flatten();
-        return Some(match of_day {
+        return Some(match of_day(line, to + gap) {
             Some(time) => Found { micros: days * DAY + time.micros, to: zone(line, time.to) },
             None => Found { micros: days * DAY, to },
         });
@@ -100,7 +99,7 @@ fn group(line: &[u8], from: usize, to: usize) -> Option<(u64, usize)> {
 /// Digits behind a decimal point, in microseconds.
 fn fraction(line: &[u8], at: usize) -> Option<(i64, usize)> {
     let to = at + line.get(at..)?.iter().take_while(|c| is_digit(**c)).count();
-    (to > at && to - at <= 9).then(|| (millionths(&line[at..to]), to))
+    (to - at <= 9).then(|| (millionths(&line[at..to]), to))
 }
 
 /// The first six digits behind a decimal point.

@@ -3,7 +3,7 @@
 use crate::field::Direction;
 
 /// What a line says of who speaks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Sender {
     /// It calls the telegram a request or a response.
     Says(Direction),
@@ -154,7 +154,7 @@ const fn said(sender: Sender, weight: Weight) -> About {
 const fn packed(word: &[u8]) -> u128 {
     let (mut packed, mut at) = (0, 0);
     while at < word.len() {
-        packed = packed << 8 | (word[at] | 0x20) as u128;
+        packed = (packed << 8) + (word[at] | 0x20) as u128;
         at += 1;
     }
     packed
@@ -191,10 +191,10 @@ pub fn word(word: &[u8]) -> Option<About> {
     if !(2..=LONGEST).contains(&word.len()) {
         return None;
     }
-    let letter = usize::from(word[0].to_ascii_lowercase().checked_sub(b'a').filter(|letter| *letter < 26)?);
-    let same = usize::from(FIRST[letter])..usize::from(FIRST[letter + 1]);
+    let letter = word[0].to_ascii_lowercase().checked_sub(b'a')?;
+    let [from, to] = *FIRST.get(usize::from(letter)..)?.first_chunk()?;
     let packed = packed(word);
-    same.into_iter().find(|at| PACKED[*at] == packed).map(|at| WORDS[at].1)
+    (usize::from(from)..usize::from(to)).find(|at| PACKED[*at] == packed).map(|at| WORDS[at].1)
 }
 
 /// Who speaks, as a part of a name in a program says: `requestText`, `rxBuffer`, `ReadCoilsResponse`.

@@ -2,7 +2,7 @@
 
 use super::digest::columns;
 use super::{Report, Verdict};
-use crate::field::{Direction, Severity, count, hex};
+use crate::field::{Direction, Severity, count, hex, shortest};
 
 /// The whole report.
 ///
@@ -62,7 +62,7 @@ pub fn telegram(report: &Report, index: usize) -> String {
     if let Some(time) = &telegram.time {
         text += &format!("   {time}");
         if let (Some(micros), Some(_)) = (telegram.latency, asked) {
-            text += &format!(", {} ms after the request", f64::from(micros) / 1000.0);
+            text += &format!(", {} ms after the request", shortest(f64::from(micros) / 1000.0));
         }
         text.push('\n');
     }

@@ -1,7 +1,7 @@
 //! A report as a table for spreadsheets: RFC 4180, a row for each telegram.
 
 use super::{Report, Verdict};
-use crate::field::{Direction, hex};
+use crate::field::{Direction, hex, shortest};
 
 /// The columns.
 const HEAD: [&str; 15] = [
@@ -71,7 +71,7 @@ pub fn telegram(report: &Report, index: usize) -> String {
         problems.join("; "),
         telegram.time.clone().unwrap_or_default(),
         // Once for an exchange: what counts and adds up goes by rows.
-        latency.map_or(String::new(), |micros| (f64::from(micros) / 1000.0).to_string()),
+        latency.map_or(String::new(), |micros| shortest(f64::from(micros) / 1000.0)),
         telegram.comment.clone(),
     ])
 }

@@ -222,7 +222,7 @@ fn filters_choose() {
         bytes[4] ^= u8::from(broken);
         lines.push((u64::from(n) * 100 + 10, "Rx", bytes));
     }
-    let text = log(&lines).replace("10:00:02.000 Tx", "10:00:02.000 fan on Tx");
+    let text = log(&lines).replace("10:00:02.000 Tx", "10:00:02.000 fan on, Lüfter, Ölpumpe Tx");
     let log = read(&text);
     let source = text.as_bytes();
     let count = |filter: Filter| log.filtered(&filter, &source, source.len() as u64).len();
@@ -236,7 +236,9 @@ fn filters_choose() {
     // A register is in two requests and their answers; bytes are found in any telegram.
     assert_eq!(count(Filter { text: "7".into(), ..all() }), 4);
     assert_eq!(count(Filter { text: "05 03 00 07".into(), ..all() }), 1);
-    assert_eq!(count(Filter { text: "fan on".into(), ..all() }), 1);
+    assert_eq!(count(Filter { text: "FAN on".into(), ..all() }), 1);
+    assert_eq!(count(Filter { text: "Lüfter".into(), ..all() }), 1);
+    assert_eq!(count(Filter { text: "Ölpumpe".into(), ..all() }), 1);
     let timeline = log.timeline(None, 10);
     assert_eq!(timeline.buckets.iter().map(|bucket| bucket.telegrams).sum::<u32>(), 100);
     assert_eq!(timeline.buckets.iter().map(|bucket| bucket.errors).sum::<u32>(), 1);

@@ -7,3 +7,4 @@ mod generator;
 mod layouts;
 mod noise;
 mod programs;
+mod slices;

@@ -102,6 +102,8 @@ fn what_bytes_could_be() {
         "11 42 01 02 03",
         "01 03 06 00 80 42 A4 F1 DE B0 F8",
         "01 03 06 00 80 42 A4 F1 DE",
+        "01 03 06 00 80 42 A4 F1 DE B0 F8 00 00 00 00",
+        "01 03 06 00 80 42 A4 F1 DE B0 F8 00 00 00 00 00",
         "01 03 06 00 80 42 A4 F1 DE B0",
         "01 03 06 00 80 42 A4 F1 DE B1",
         "01 03 06 00 80 42 A4 F1",
@@ -152,6 +154,7 @@ fn what_bytes_could_be() {
         "68 05 06 68 81 82 5D 3B 3E D9 16",
         "68 05 05 68 81 82 5D 3B 3E",
         "68 05 05 68 81 82 5D 3B 3E D9",
+        "68 05 05 68 81 82 5D 3B 3E D9 17",
         "68 05 05 68 81 82 5D 3B 16",
         "68 05 06 68 81 82 5D 3B 16",
         "68 05 05 69 81 82 5D 3B 3E",
@@ -204,6 +207,11 @@ fn what_bytes_could_be() {
         ("counted", facts(|it| it.counted = true)),
         ("left over", facts(|it| it.of_leftovers = true)),
         ("listed", facts(|it| it.listed = true)),
+        ("words", facts(|it| it.words = true)),
+        ("an array", facts(|it| (it.array, it.marked, it.wrapped) = (true, true, true))),
+        ("an array, said", facts(|it| (it.array, it.said) = (true, true))),
+        ("an array of telegrams", facts(|it| (it.array, it.of_telegrams) = (true, true))),
+        ("an array of words", facts(|it| (it.array, it.words) = (true, true))),
     ];
     for (fact, bits) in places {
         writeln!(table, "{fact}: {bits}").unwrap();

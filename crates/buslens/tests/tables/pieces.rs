@@ -48,6 +48,9 @@ fn shown(piece: &Piece<'_>, shape: usize) -> String {
     if let Some(port) = piece.port {
         write!(said, ", port {}", String::from_utf8_lossy(port)).unwrap();
     }
+    if let Some((from, step)) = piece.pairs {
+        write!(said, ", pairs from {from} by {step}").unwrap();
+    }
     if piece.joins {
         said += ", joins";
     }
@@ -161,15 +164,21 @@ fn forms_of_texts() {
         "9 01 03 00 C8 00 03 84 35",
         "4 01 03 00 C8",
         "3 01 03 00",
+        "03 01 03 00",
+        "04 01 03 00 C8",
+        "09 01 03 00 C8 00 03 84 35",
         "8, 1, 3, 0, 200, 0, 3, 132, 53",
         "tx 8 01 03 00 C8 00 03 84 35 rx 4 01 03 00 C8",
     ] {
         pieces(&mut table, text, &Form { counted: true, ..Form::default() });
     }
     writeln!(table, "# quoted").unwrap();
-    for text in
-        ["> 01 03 00 C8\n> > 00 03\n>\n> x\nno 01 03 00 C8", ">>> tx 01 03 00 C8", "> 0000: 01 03 00 C8"]
-    {
+    for text in [
+        "> 01 03 00 C8\n> > 00 03\n>\n> x\nno 01 03 00 C8",
+        ">>> tx 01 03 00 C8",
+        "> 0000: 01 03 00 C8",
+        "> tx 0x01 0x03 0x00 0xC8 0x00\n> tx 0x11 0x03 0x00 0xC9 0x00\n>> tx 0x11 0x03 0x00 0xC9 0x00",
+    ] {
         pieces(&mut table, text, &Form { quoted: true, ..Form::default() });
     }
     writeln!(table, "# one byte a line").unwrap();
@@ -203,6 +212,7 @@ fn forms_of_texts() {
             "#7;09:30:05.5;A;5;01 03 00 C8;note 1",
             "#8;09:30:06.5;B;55;05 03 00 C8;note 2\n#9;x;AB;1;05;",
             "nothing; here",
+            "#7;09:30:05.5;A;5;0x01 0x03 0x00 0xC8 0x00;note 1\n#8;09:30:06.5;B;5;0x11 0x03 0x00 0xC9 0x00;note 1",
             "#9;09:30:06.5;B;55;",
             "a;b;c;d;0x01, 0x03,\n1;2;3;4;00 C8",
         ] {
@@ -223,6 +233,7 @@ fn beginnings() {
     for count in [3, 7, 8, 16, 17] {
         texts.push(lines(&|n| format!("TX 01 03 00 C8 00 {n:02X} 84 35"), count));
         texts.push(lines(&|n| format!("TX 1 3 0 200 0 {n} 132 53"), count));
+        texts.push(lines(&|n| format!("TX 01 03 00 20 00 {n:02}"), count));
         texts.push(lines(&|n| format!("{n}.5,0x{n:02X},"), count));
         texts.push(lines(&|n| format!("{:02} 01 03 00 C8 00{}", 5 + n, " 03".repeat(n)), count));
         texts.push(lines(&|n| format!("{} 1 3 0 200 0{}", 5 + n, " 3".repeat(n)), count));
@@ -242,6 +253,11 @@ fn beginnings() {
     texts.push(format!(
         "t\n{}{}",
         lines(&|_| "01 03 00 C8 x 0x05".to_owned(), 2),
+        lines(&|n| format!("{n}.5,0x{n:02X}"), 20)
+    ));
+    texts.push(format!(
+        "t\n{}{}",
+        lines(&|_| "01 03 x 0x05".to_owned(), 3),
         lines(&|n| format!("{n}.5,0x{n:02X}"), 20)
     ));
     texts.push(format!(
@@ -336,6 +352,7 @@ fn long_texts() {
     let bytes = |count: usize, parted: &str| vec!["5A"; count].join(parted);
     for (name, text) in [
         ("a line of 65,536 characters", "x".repeat(1 << 16)),
+        ("a blank and 70,000 characters", " ".to_owned() + &"x".repeat(70_000)),
         ("65,537 characters and bytes", "x".repeat((1 << 16) + 1) + " 01 03 00 C8 00 03"),
         ("30,000 bytes in a line", bytes(30_000, " ")),
         ("30,000 bytes in a line with a time", format!("10:00:00 tx: {}", bytes(30_000, " "))),
@@ -347,7 +364,7 @@ fn long_texts() {
         ("600 lines of a column", rows(600, "x 5A")),
         ("601 lines of a column", rows(601, "x 5A")),
         ("605 lines of a column", rows(605, "x 5A")),
-        ("8 numbers in a row", rows(5, "a 1 b 2 c 3 d 4 e 5 f 6 g 7 h 8")),
+        ("8 numbers in a row", rows(5, "q 1 r 2 s 3 t 4 u 5 v 6 w 7 x 8")),
         ("9 numbers in a row", rows(5, "q 1 r 2 s 3 t 4 u 5 v 6 w 7 x 8 y 9")),
         (
             "70 numbers in a line, the last tells the length",

@@ -1,6 +1,8 @@
 //! What all kinds of practice make their tasks of: telegrams, and how a field comes about.
 
-use buslens::field::{Direction, Field, Format, Order, Span, float, hex, hex_value};
+use std::fmt;
+
+use buslens::field::{Direction, Field, Format, Order, Span, float, hex, hex_value, shortest};
 use buslens::tool::steps::CHECKS;
 use buslens::tool::{Change, Editor, Profile, Protocol, Settings, offers};
 
@@ -100,9 +102,29 @@ pub fn word(random: &mut Random) -> u16 {
     (random.between(1, 0x7E) as u16) << 8 | random.between(1, 0xFE) as u16
 }
 
+/// A float, written as the library writes it.
+#[derive(Clone, Copy)]
+pub struct Float(f32);
+
+impl Float {
+    pub fn to_bits(self) -> u32 {
+        self.0.to_bits()
+    }
+
+    pub fn to_be_bytes(self) -> [u8; 4] {
+        self.0.to_be_bytes()
+    }
+}
+
+impl fmt::Display for Float {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(&float(self.to_bits().into(), 4))
+    }
+}
+
 /// A float of few digits, as people set it: from 8.25 to 511.75, in quarters that are no whole number.
-pub fn quarters(random: &mut Random) -> f32 {
-    random.between(8, 511) as f32 + [0.25, 0.5, 0.75][random.below(3)]
+pub fn quarters(random: &mut Random) -> Float {
+    Float(random.between(8, 511) as f32 + [0.25, 0.5, 0.75][random.below(3)])
 }
 
 /// "byte 2", "bytes 2 and 3", "bytes 2 to 5".
@@ -165,7 +187,7 @@ pub fn working(telegram: &Telegram, field: &Field) -> Vec<String> {
 /// A float taken apart.
 pub fn float_said(raw: u32) -> String {
     let exponent = (raw >> 23 & 0xFF) as i32 - 127;
-    let fraction = 1.0 + f64::from(raw & 0x007F_FFFF) / 8_388_608.0;
+    let fraction = shortest(1.0 + f64::from(raw & 0x007F_FFFF) / 8_388_608.0);
     format!(
         "Sign {}, exponent {} − 127 = {exponent}, 1 + fraction = {fraction}: {fraction} × 2^{exponent} = {}.",
         if raw >> 31 == 0 { '+' } else { '−' },

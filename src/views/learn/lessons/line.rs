@@ -2,6 +2,8 @@
 
 use leptos::prelude::*;
 
+use buslens::field::decimal;
+
 /// Bits of a character: start, eight of data, parity or a second stop bit, stop.
 const BITS: u32 = 11;
 /// Above this rate the silence is fixed.
@@ -17,7 +19,7 @@ fn character(rate: u32) -> f64 {
 }
 
 fn milliseconds(micros: f64) -> String {
-    format!("{:.2} ms", micros / 1000.0)
+    decimal(micros / 1000.0, 2) + " ms"
 }
 
 /// Telegrams as they take their time on the line, with the silence that parts them.
@@ -33,7 +35,7 @@ pub fn Line(rate: u32, bytes: Vec<Vec<u8>>) -> impl IntoView {
             let cells: Vec<_> = bytes.iter().map(|byte| view! { <i>{format!("{byte:02X}")}</i> }).collect();
             let silence = (index < last).then(|| {
                 view! {
-                    <li class="silence" style:flex-grow=format!("{}", pause / one)>
+                    <li class="silence" style:flex-grow=decimal(pause / one, 3)>
                         <span class="cells"></span>
                         <span class="caption">{format!("silence {}", milliseconds(pause))}</span>
                     </li>

@@ -5,7 +5,7 @@ use leptos::html;
 use leptos::prelude::*;
 
 use crate::components::roving;
-use buslens::field::{Format, hex_value, number_text};
+use buslens::field::{Format, decimal, hex_value, number_text};
 use buslens_trainer::lesson::Reading;
 
 /// A few bits that mean something together.
@@ -79,7 +79,7 @@ pub fn Switches(
             match label {
                 "sign" => if bits == 0 { "+" } else { "−" }.to_owned(),
                 "exponent" => format!("{bits}: times 2 to the power of {}", bits as i32 - 127),
-                "fraction" => format!("{:.6}", 1.0 + f64::from(bits) / f64::from(1_u32 << 23)),
+                "fraction" => decimal(1.0 + f64::from(bits) / f64::from(1_u32 << 23), 6),
                 // What hex is, is not known yet.
                 _ if reading == Reading::Sum => String::new(),
                 _ => format!("{bits:X}"),

@@ -8,11 +8,17 @@ use crate::components::icon::{Glyph, Icon};
 use crate::views::read::ReadState;
 use crate::views::read::times::{clock, duration};
 use crate::worker::messages::Request;
+use buslens::field::decimal;
 use buslens::tool::log::{Filter, Lane, Lanes, Mark, State};
 
 /// The height of a lane and of a mark in it, in pixels.
 const LANE: usize = 24;
 const MARK: usize = 14;
+
+/// How far along something is that has so many stretches, for a style.
+fn percent(at: f64, of: usize) -> String {
+    decimal(at * 100.0 / of as f64, 3) + "%"
+}
 
 #[component]
 pub fn Timeline() -> impl IntoView {
@@ -109,8 +115,8 @@ pub fn Timeline() -> impl IntoView {
     let band = move || {
         let (from, to) = dragged.get()?;
         let (from, to) = (from.min(to), from.max(to) + 1);
-        let percent = |at: usize| format!("{}%", at as f64 * 100.0 / stretches() as f64);
-        Some(view! { <span class="band" style:left=percent(from) style:width=percent(to - from)></span> })
+        let edge = |at: usize| percent(at as f64, stretches());
+        Some(view! { <span class="band" style:left=edge(from) style:width=edge(to - from)></span> })
     };
     let shown = move || {
         let row_time = log
@@ -121,7 +127,7 @@ pub fn Timeline() -> impl IntoView {
             let at = if lanes.timed { time? } else { index as i64 };
             let part = (at - lanes.from) as f64 / ((lanes.to - lanes.from).max(1)) as f64;
             (0.0..=1.0).contains(&part).then(|| {
-                view! { <span class="cursor" style:left=format!("{}%", part * 100.0)></span> }
+                view! { <span class="cursor" style:left=percent(part, 1)></span> }
             })
         })
     };
@@ -149,7 +155,7 @@ pub fn Timeline() -> impl IntoView {
                     {lanes} {band} {shown}
                     <span
                         class="key-cursor"
-                        style:left=move || format!("{}%", (at.get() as f64 + 0.5) * 100.0 / stretches() as f64)
+                        style:left=move || percent(at.get() as f64 + 0.5, stretches())
                     ></span>
                 </div>
                 <p class="ends number">{ends}</p>
@@ -232,7 +238,7 @@ fn draw(lanes: &Lanes) -> impl IntoView + use<> {
             view! {
                 <span
                     class="slow"
-                    style:left=format!("{}%", (at as f64 + 1.2) * 100.0 / width as f64)
+                    style:left=percent(at as f64 + 1.2, width)
                     style:top=format!("{}px", row * LANE + (LANE - 16) / 2)
                 >
                     {duration(worst.into())}

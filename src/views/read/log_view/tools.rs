@@ -15,7 +15,7 @@ use crate::views::read::editor::byte_offset;
 use crate::views::read::reading::{Choose, ReadingChoices};
 use crate::views::read::times::{clock, duration};
 use crate::worker::messages::{Part, Request, Value, Which};
-use buslens::field::{Span, count};
+use buslens::field::{Span, count, decimal, shortest};
 use buslens::tool::log::{Held, Unit};
 
 #[component]
@@ -203,14 +203,15 @@ fn Curve(values: Vec<Value>, open: RwSignal<bool>) -> impl IntoView {
     let part = |n: f64, low: f64, high: f64| if high > low { (n - low) / (high - low) } else { 0.5 };
     let x = |value: &Value| part(at(value), left, right) * (WIDTH - 2.0 * EDGE) + EDGE;
     let y = |value: &Value| (1.0 - part(value.value, low, high)) * (HEIGHT - 2.0 * EDGE) + EDGE;
-    let line: Vec<String> = values.iter().map(|value| format!("{:.1},{:.1}", x(value), y(value))).collect();
+    let line: Vec<String> =
+        values.iter().map(|value| decimal(x(value), 1) + "," + &decimal(y(value), 1)).collect();
     let place = |value: &Value| value.time.map_or_else(|| format!("telegram {}", value.index + 1), clock);
     let points: Vec<_> = values
         .iter()
         .map(|value| {
-            let words = format!("{}: {}", place(value), value.value);
+            let words = format!("{}: {}", place(value), shortest(value.value));
             view! {
-                <circle cx=format!("{:.1}", x(value)) cy=format!("{:.1}", y(value)) r="3">
+                <circle cx=decimal(x(value), 1) cy=decimal(y(value), 1) r="3">
                     <title>{words}</title>
                 </circle>
             }
@@ -232,7 +233,7 @@ fn Curve(values: Vec<Value>, open: RwSignal<bool>) -> impl IntoView {
                         {place(value)}
                     </button>
                     " "
-                    {value.value}
+                    {shortest(value.value)}
                 </li>
             }
         })

@@ -12,17 +12,15 @@ impl Search<'_> {
             let mut digits = self.bytes.to_vec();
             digits[at] = digits[at].rotate_left(4);
             self.attempt(Cause::DigitsSwapped, at, digits, 2 * body);
-            if at + 1 < body {
-                // The last digit of a byte and the first one of the next.
-                let mut digits = self.bytes.to_vec();
-                let (one, next) = (digits[at], digits[at + 1]);
-                digits[at] = one & 0xF0 | next >> 4;
-                digits[at + 1] = one << 4 | next & 0x0F;
-                self.attempt(Cause::DigitsSwapped, at, digits, 2 * body);
-                let mut neighbours = self.bytes.to_vec();
-                neighbours.swap(at, at + 1);
-                self.attempt(Cause::BytesSwapped, at, neighbours, body);
-            }
+            // The last digit of a byte and the first one of the next.
+            let mut digits = self.bytes.to_vec();
+            let (one, next) = (digits[at], digits[at + 1]);
+            digits[at] = one & 0xF0 | next >> 4;
+            digits[at + 1] = one << 4 | next & 0x0F;
+            self.attempt(Cause::DigitsSwapped, at, digits, 2 * body);
+            let mut neighbours = self.bytes.to_vec();
+            neighbours.swap(at, at + 1);
+            self.attempt(Cause::BytesSwapped, at, neighbours, body);
         }
         // All of it, or the registers: behind function code and address, or behind a byte count.
         for (from, to) in [(0, length), (3, body), (2, body), (7, body)] {

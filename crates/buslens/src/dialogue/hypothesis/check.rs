@@ -81,12 +81,13 @@ impl Search<'_> {
         if others.iter().any(|other| other.len() > 4 && *other != self.bytes && other.ends_with(&found)) {
             self.add(Cause::CheckCopied, place, right.clone(), Some(others.len()));
         }
-        let difference = u16::from_be_bytes([right[place] ^ found[0], right[place + 1] ^ found[1]]);
+        let [high, low] = [right[place] ^ found[0], right[place + 1] ^ found[1]];
+        let difference = u16::from_be_bytes([high, low]);
         let one_digit = (0..4).any(|digit| difference & !(0xF << (4 * digit)) == 0);
         match (one_digit, difference.count_ones()) {
             (_, 1) => self.add(
                 Cause::BitFlipped,
-                if difference > 0xFF { place } else { place + 1 },
+                if high != 0 { place } else { place + 1 },
                 right,
                 Some(8 * self.bytes.len()),
             ),

@@ -74,7 +74,7 @@ impl Search<'_> {
         let mut found = Vec::new();
         for count in 1..=MOST.len() {
             if self.bytes.len() <= MOST[count - 1] {
-                let ways = (self.bytes.len() + 1).pow(count as u32) << count >> (count - 1);
+                let ways = 2 * (self.bytes.len() + 1).pow(count as u32);
                 let mut places = Vec::new();
                 insert(self.bytes, &needed, (0, before[0]), count, &mut places, &mut |places| {
                     found.push((places.to_vec(), ways));

@@ -22,10 +22,7 @@ impl Search<'_> {
                 right(&bytes)
             }) {
                 bytes[place] = value;
-                let flipped = (value ^ self.bytes[place]).is_power_of_two();
-                let (cause, tries) =
-                    if flipped { (Cause::BitFlipped, Some(8 * length)) } else { (Cause::CheckWrong, None) };
-                self.add(cause, place, bytes, tries);
+                self.add(Cause::CheckWrong, place, bytes, None);
                 break;
             }
         }

@@ -1,6 +1,7 @@
 use std::collections::HashMap;
 
 use super::conversation::Meeting;
+use super::cut::Context;
 use super::entries::Entries;
 use super::entry::{Entry, Hint, NO_TIME, NOBODY, Role, Written, number};
 use super::judge::{Known, Shapes, Weak};
@@ -62,11 +63,15 @@ pub struct Traffic {
     pub(super) latest_way: Option<(u16, u8)>,
     /// The request that waits, for each port.
     pub(super) waiting: Vec<Option<Waiting>>,
+    /// Something came on the port since the last mark.
+    pub(super) heard: Vec<bool>,
     /// Units with their functions that had a right telegram: a bit for each.
     pub(super) seen: Vec<u64>,
     /// The time of the last chunk, to notice midnight.
     pub(super) clock: i64,
     pub(super) days: i64,
+    /// Some time has a date.
+    pub(super) dated: bool,
     /// See [`Chunk::both_ways`].
     pub(super) both_ways: bool,
     /// See [`flow`](Traffic::flow).
@@ -89,6 +94,8 @@ pub struct Traffic {
     pub(super) shapes: Shapes,
     /// What those with a proof tell of the others.
     pub(super) known: Known,
+    /// See [`settle_context`](Self::settle_context).
+    pub(super) context: Option<Context>,
     /// A text holds nothing but what should be telegrams.
     pub(super) typed: bool,
     /// Lines of a text with pieces that are no telegrams: number and place.
@@ -151,9 +158,11 @@ impl Traffic {
             latest: 0,
             latest_way: None,
             waiting: Vec::new(),
+            heard: Vec::new(),
             seen: vec![0; 256 * 2],
             clock: NO_TIME,
             days: 0,
+            dated: false,
             both_ways: false,
             flowing: false,
             room: MOST_ENTRIES,
@@ -166,6 +175,7 @@ impl Traffic {
             weak: Vec::new(),
             shapes: Shapes::default(),
             known: Known::default(),
+            context: None,
             typed: true,
             passed: Vec::new(),
             unread: Vec::new(),
@@ -199,6 +209,7 @@ impl Traffic {
             self.close(self.latest);
         }
         (self.latest, self.latest_way) = (index, Some((chunk.port, way)));
+        self.heard[usize::from(chunk.port)] = true;
         let lane = &self.lanes[index];
         let flows = self.flowing && lane.rows.last().is_some_and(|row| row.goes_on(chunk.hint, time));
         let stays = (chunk.joins || flows) && (!lane.rows.is_empty() || lane.streaming);
@@ -231,7 +242,7 @@ impl Traffic {
             // The usual way of a stream: nothing of it is copied but what is left over.
             lane.rows.clear();
             lane.rows.push(row);
-            let used = self.split(index, chunk.bytes, 0, false);
+            let used = self.split(index, chunk.bytes, false);
             let lane = &mut self.lanes[index];
             lane.buffer.extend_from_slice(&chunk.bytes[used..]);
             lane.forget(used);
@@ -239,7 +250,7 @@ impl Traffic {
         }
         lane.rows.push(row);
         lane.buffer.extend_from_slice(chunk.bytes);
-        let long = lane.buffer.len() > LONG;
+        let long = lane.buffer.len() > LONG && !row.facts.column;
         if (lane.streaming && !self.flowing) || (long && can_split(self.protocol)) {
             lane.streaming = true;
             self.drain_buffer(index, false);
@@ -303,6 +314,7 @@ impl Traffic {
         }
         if self.waiting.len() <= usize::from(port) {
             self.waiting.resize(usize::from(port) + 1, None);
+            self.heard.resize(usize::from(port) + 1, false);
         }
         index
     }
@@ -311,6 +323,7 @@ impl Traffic {
     fn continuous(&mut self, time: i64) -> i64 {
         const DAY: i64 = 86_400_000_000;
         let only_of_day = (0..DAY).contains(&time);
+        self.dated |= !only_of_day;
         if only_of_day && self.clock != NO_TIME && self.clock - (time + self.days) > DAY / 2 {
             self.days += DAY;
         }
@@ -353,10 +366,9 @@ impl Traffic {
         &self.pauses
     }
 
-    /// How many bytes of memory it takes.
+    /// How many bytes of memory it takes, as far as it is settled.
     pub fn memory(&self) -> usize {
-        let in_hand = self.data.capacity() + self.entries.capacity() * size_of::<Entry>();
-        self.settled.memory() + self.lines.memory() + in_hand
+        self.settled.memory() + self.lines.memory()
     }
 
     /// How many pieces of a text are telegrams of each of the [`FOREIGN`](crate::dialogue::foreign::FOREIGN).
@@ -370,7 +382,7 @@ impl Traffic {
     }
 
     /// Reads all that is left of a lane.
-    fn close(&mut self, index: usize) {
+    pub(super) fn close(&mut self, index: usize) {
         if self.lanes.len() <= index {
             return;
         }
@@ -483,8 +495,8 @@ impl Traffic {
             _ => (row.offset, skip.clamp(0, isize::from(i16::MAX)) as u16),
         };
         let (hint, sides) = match self.direction {
-            Some(direction) if role == Role::Plain => (Hint::Says(direction), sides_of(direction)),
-            _ => (row.hint, said.sides),
+            Some(direction) => (Hint::Says(direction), sides_of(direction)),
+            None => (row.hint, said.sides),
         };
         self.entries.push(Entry {
             time: row.time,

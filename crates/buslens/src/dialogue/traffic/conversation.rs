@@ -1,12 +1,15 @@
 //! Requests meet their responses.
 
+use std::hash::{Hash, Hasher};
+
+use super::cut::hash_entry;
 use super::entries::Entries;
 use super::entry::{Entry, Hint, NOBODY, Role, bytes};
 use crate::field::Direction;
 use crate::frame::{ANY_EXCHANGE, Verdict};
 
 /// What is true for a whole log.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 struct Habits {
     /// The writer of the log is the client; `None` where sent and received do not tell who asks, as
     /// where a monitor receives everything.
@@ -64,17 +67,79 @@ impl Meeting {
         self.carry(base, block, data);
     }
 
+    /// Whether it is told what is true for the whole log.
+    pub fn is_settled(&self) -> bool {
+        self.habits.is_some()
+    }
+
+    /// At a mark behind so many telegrams: what is far before it is not waited for any more.
+    pub fn forget(&mut self, telegrams: usize) {
+        /// Nobody answers so late.
+        const FAR: usize = 256;
+        let near = |index: &usize| index + FAR >= telegrams;
+        for port in &mut self.ports {
+            port.open.retain(|(request, _)| near(request));
+            port.previous = port.previous.filter(near);
+        }
+        self.leave_unwanted();
+    }
+
+    /// Nothing comes from a port any more.
+    pub fn fall_silent(&mut self, port: u16) {
+        if let Some(port) = self.ports.get_mut(usize::from(port)) {
+            *port = Port::default();
+        }
+    }
+
+    /// Goes on elsewhere in the log.
+    pub fn jump(&mut self) {
+        self.ports.iter_mut().for_each(|port| *port = Port::default());
+        self.carried.clear();
+    }
+
+    /// How far before the place behind so many telegrams those are that later ones may have to do with.
+    pub fn open(&self, telegrams: usize) -> Vec<usize> {
+        self.carried.iter().map(|carried| telegrams - carried.index).collect()
+    }
+
+    /// See [`Traffic::place`](super::Traffic::place).
+    pub fn hash_state(&self, telegrams: usize, line: u32, days: i64, hasher: &mut impl Hasher) {
+        (self.habits, self.joined).hash(hasher);
+        for carried in &self.carried {
+            let partner = match carried.entry.partner {
+                NOBODY => NOBODY,
+                partner => (telegrams as u32).wrapping_sub(partner),
+            };
+            // Where its bytes were is nothing to what comes.
+            let entry = Entry { partner, at: 0, ..carried.entry };
+            hash_entry(&entry, line, days, hasher);
+            (telegrams - carried.index, &carried.bytes).hash(hasher);
+        }
+        for port in &self.ports {
+            for (request, exchange) in &port.open {
+                (telegrams - request, exchange).hash(hasher);
+            }
+            (port.open.len(), port.previous.map(|it| telegrams - it), port.echoed).hash(hasher);
+        }
+    }
+
     /// Keeps what the next block may have to do with.
     fn carry(&mut self, base: usize, block: &[Entry], data: &[u8]) {
-        let mut wanted: Vec<usize> = self.ports.iter().flat_map(Port::wanted).collect();
-        wanted.sort_unstable();
-        wanted.dedup();
-        self.carried.retain(|carried| wanted.binary_search(&carried.index).is_ok());
+        let wanted = self.leave_unwanted();
         let fresh = wanted.partition_point(|index| *index < base);
         self.carried.extend(wanted[fresh..].iter().map(|index| {
             let entry = block[index - base];
             Carried { index: *index, entry, bytes: bytes(&entry, data).to_vec() }
         }));
+    }
+
+    /// Leaves what nothing has to do with any more; returns what something may have.
+    fn leave_unwanted(&mut self) -> Vec<usize> {
+        let mut wanted: Vec<usize> = self.ports.iter().flat_map(Port::wanted).collect();
+        wanted.sort_unstable();
+        wanted.dedup();
+        self.carried.retain(|carried| wanted.binary_search(&carried.index).is_ok());
+        wanted
     }
 }
 
@@ -144,8 +209,7 @@ fn join_speakers(entries: &[Entry]) -> bool {
 /// Whether two telegrams are the same. Their lengths and checks tell most apart, in one step.
 #[inline]
 fn alike(one: &[u8], other: &[u8]) -> bool {
-    let [last, other_last] = [one, other].map(|bytes| bytes.last().copied().unwrap_or_default());
-    (one.len() ^ other.len()) | usize::from(last ^ other_last) == 0 && one == other
+    (one.len(), one.last()) == (other.len(), other.last()) && one == other
 }
 
 /// Whether a telegram begins with a shorter one.

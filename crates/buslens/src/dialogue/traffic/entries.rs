@@ -50,6 +50,11 @@ impl Entries {
         Iter { rows: self.rows.iter(), index: 0 }
     }
 
+    /// Those from `index` on, of which there is at least that.
+    pub(super) fn from(&self, index: usize) -> Iter<'_> {
+        Iter { rows: self.rows.from(index), index }
+    }
+
     /// The bytes of an entry, if they are kept.
     pub fn kept(&self, entry: &Entry) -> Option<&[u8]> {
         entry.written.is_none().then(|| self.kept.get(entry.at, usize::from(entry.length)))
@@ -206,7 +211,7 @@ fn pack(row: &mut [u64; COLUMNS], index: usize, entry: &Entry, at: u64, time: i6
             before => 2 * before.unsigned_abs() + 1,
         },
     };
-    let written = entry.written.map_or(0, |written| u64::from(written.from) << 8 | u64::from(written.step));
+    let written = entry.written.map_or(0, |written| (u64::from(written.from) << 8) + u64::from(written.step));
     // One by one: what is put together elsewhere is waited for when it is copied.
     row[TIME] = time as u64;
     row[1] = entry.offset;
@@ -258,17 +263,17 @@ fn kind(entry: &Entry) -> u64 {
         Hint::Other => 4,
     };
     u64::from(entry.direction == Direction::Response)
-        | u64::from(entry.sides[0]) << 1
-        | u64::from(entry.sides[1]) << 2
-        | (entry.role as u64) << 3
-        | hint << 6
-        | u64::from(entry.unit.unwrap_or_default()) << 9
-        | u64::from(entry.function) << 17
-        | u64::from(entry.length) << 25
-        | (entry.verdict as u64) << 41
-        | u64::from(entry.time != NO_TIME) << TIMED
-        | u64::from(entry.unit.is_some()) << 44
-        | u64::from(entry.protocol) << 45
+        + (u64::from(entry.sides[0]) << 1)
+        + (u64::from(entry.sides[1]) << 2)
+        + ((entry.role as u64) << 3)
+        + (hint << 6)
+        + (u64::from(entry.unit.unwrap_or_default()) << 9)
+        + (u64::from(entry.function) << 17)
+        + (u64::from(entry.length) << 25)
+        + ((entry.verdict as u64) << 41)
+        + (u64::from(entry.time != NO_TIME) << TIMED)
+        + (u64::from(entry.unit.is_some()) << 44)
+        + (u64::from(entry.protocol) << 45)
 }
 
 /// The bit of what has a time.
@@ -342,6 +347,9 @@ mod tests {
             assert_eq!(entries.kept(&found), (n % 3 > 0).then_some(&bytes(n)[..]));
             assert_eq!(entries.get(n as usize - 1), Some(found));
         }
+        assert_eq!(entries.iter().len(), 29_999);
+        let of_bytes: usize = (1..30_000).filter(|n| n % 3 > 0).map(|n| bytes(n).len()).sum();
+        assert!((of_bytes..of_bytes * 5 / 2).contains(&entries.memory()), "{of_bytes} {}", entries.memory());
     }
 
     #[test]

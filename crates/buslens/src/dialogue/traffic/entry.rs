@@ -34,7 +34,7 @@ pub struct Entry {
 }
 
 /// How the bytes of a telegram stand in the file, all in the same way.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Written {
     /// How far behind [`Entry::offset`] the first one begins.
     pub from: u32,
@@ -72,7 +72,7 @@ pub enum Role {
 }
 
 /// What the log says of who speaks.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Hint {
     #[default]
     None,

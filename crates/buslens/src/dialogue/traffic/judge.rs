@@ -1,11 +1,11 @@
 //! What of a text without a proof is a telegram, when all of it is known.
 
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
 use super::collect::Traffic;
 use super::entry::{Entry, Hint, Role, bytes};
 use crate::dialogue::evidence::{self, CONVERSATION, OTHER_KIND, SAME, SEEN};
-use crate::dialogue::foreign::FT12;
 use crate::dialogue::{Candidate, Certainty, protocols, turns};
 use crate::field::{Direction, Facts, Span};
 use crate::frame::{
@@ -43,7 +43,7 @@ struct Shape {
 }
 
 /// The shapes of a text, as [`Facts::shape`] numbers them.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Shapes {
     shapes: Vec<Shape>,
     latest: usize,
@@ -169,7 +169,7 @@ fn family(protocol: &Protocol) -> Family {
 impl Traffic {
     /// Judges those of the first `count` entries that have no proof, and takes the telegrams out.
     pub(super) fn judge(&mut self, count: usize) -> Vec<Entry> {
-        let foreign = self.foreign_protocols[FT12] > 0;
+        let foreign = self.short_frames() > 0;
         if self.weak.is_empty() && self.gone.is_empty() && !foreign {
             let mut block = self.take_out(count, &Chosen::of(count, std::iter::empty()), Vec::new());
             self.take_turns(&mut block);
@@ -183,11 +183,15 @@ impl Traffic {
         // Who types telegrams types few lines that are none.
         let read = count - weak.iter().filter(|weak| !weak.read || weak.facts.slips).count();
         let typed = self.typed && (count <= FEW || read * 2 >= count);
-        if typed && self.settled.is_empty() {
-            self.choose_typed(count, &mut weak);
+        if typed && count == self.entries.len() && self.settled.is_empty() {
+            self.choose_typed(&mut weak);
         }
         self.settle_pdus(&weak, &gone);
-        let mut known = std::mem::take(&mut self.known);
+        // What a block tells behind the beginning of the log is of itself only.
+        let mut known = match &self.context {
+            Some(context) => Known::behind(&context.known),
+            None => std::mem::take(&mut self.known),
+        };
         known.learn(self, count, &weak, &gone, typed);
         // Telegrams inside of what is none.
         let mut more: Vec<(u32, Vec<Entry>)> = Vec::new();
@@ -200,7 +204,9 @@ impl Traffic {
         }
         self.take_out_foreign(count, &mut gone);
         let more = self.take_cut_copies(more, &known);
-        self.known = known;
+        if self.context.is_none() {
+            self.known = known;
+        }
         let mut block = self.take_out(count, &gone, more);
         self.take_turns(&mut block);
         block
@@ -380,17 +386,13 @@ impl Traffic {
     }
 
     /// Where a person types nothing but telegrams, all of them together tell the protocol.
-    fn choose_typed(&mut self, count: usize, weak: &mut [Weak]) {
-        /// More are no typing.
-        const MOST: usize = 10_000;
+    fn choose_typed(&mut self, weak: &mut [Weak]) {
         /// So many bits speak for a protocol.
         const COMPANY: u32 = 5;
         /// And so many leave no doubt.
         const SURE: u32 = 16;
-        if count > MOST {
-            return;
-        }
-        let candidates: Vec<Candidate<'_>> = self.entries[..count]
+        let candidates: Vec<Candidate<'_>> = self
+            .entries
             .iter()
             .map(|entry| Candidate {
                 bytes: bytes(entry, &self.data),
@@ -425,7 +427,7 @@ impl Traffic {
             let other = bits >= SURE
                 || (family(chosen) != Family::Serial && bits > COMPANY + 2)
                 || self.settings.bus.is_some_and(|bus| bus == chosen.bus() && bus != own.bus())
-                || (self.lacks_data(index) && !one.cut && !none_checked)
+                || (self.lacks_data(index) && !one.cut && !none_checked && family(chosen) == Family::Serial)
                 || !one.read
                 || chosen.is(&modbus_ascii::PROTOCOL);
             one.read |= bits > 0 || company.contains(&(telegram.len(), chosen.key));
@@ -475,7 +477,7 @@ impl Traffic {
         bits += if entry.verdict == Verdict::Right { SAME } else { 0 };
         bits += if copies { SAME } else { 0 };
         let pair = (entry.unit.unwrap_or_default(), entry.function & !EXCEPTION);
-        bits += if entry.unit.is_some() && known.seen.contains(&pair) { SEEN } else { 0 };
+        bits += if entry.unit.is_some() && known.has_seen(pair) { SEEN } else { 0 };
         if known.families.iter().any(|seen| *seen) && !known.families[family as usize] {
             bits += OTHER_KIND;
         }
@@ -591,7 +593,7 @@ impl Traffic {
             entry.protocol().is(&profibus_fdl::PROTOCOL)
                 && bytes(entry, &self.data).first() == Some(&profibus_fdl::SD1)
         });
-        if (self.foreign_protocols[FT12] as usize) <= own.count() {
+        if (self.short_frames() as usize) <= own.count() {
             return;
         }
         for (index, entry) in (0_u32..).zip(&self.entries[..count]) {
@@ -623,9 +625,22 @@ pub(super) struct Known {
     families: [bool; 3],
     /// The telegrams on serial lines by their first bytes, and which sides they can be of.
     bodies: HashMap<[u8; 4], Vec<Sided>>,
+    /// What the beginning of the log told.
+    beginning: Option<Arc<Self>>,
 }
 
 impl Known {
+    /// Begins with what the beginning of a log told.
+    fn behind(beginning: &Arc<Self>) -> Self {
+        let Self { typed, entries, read, threshold, families, .. } = **beginning;
+        let beginning = Some(Arc::clone(beginning));
+        Self { typed, entries, read, threshold, families, beginning, ..Self::default() }
+    }
+
+    fn has_seen(&self, pair: (u8, u8)) -> bool {
+        self.seen.contains(&pair) || self.beginning.as_ref().is_some_and(|it| it.seen.contains(&pair))
+    }
+
     /// Learns from the next `count` entries, of which these are `weak`.
     fn learn(&mut self, traffic: &Traffic, count: usize, weak: &[Weak], gone: &Chosen, typed: bool) {
         /// More that begin alike are a log whose lines tell enough.
@@ -663,15 +678,16 @@ impl Known {
     }
 
     /// The telegrams that begin as `own` does.
-    fn alike(&self, own: &[u8]) -> &[(Vec<u8>, [bool; 2])] {
-        own.first_chunk().and_then(|first| self.bodies.get(first)).map_or(&[], Vec::as_slice)
+    fn alike(&self, own: &[u8]) -> impl Iterator<Item = &Sided> {
+        let knows = self.beginning.as_deref().into_iter().chain([self]);
+        knows.filter_map(|known| known.bodies.get(own.first_chunk()?)).flatten()
     }
 
     /// Whether an entry is a telegram that was seen, with another check, without one, or without its end.
     fn copies(&self, entry: &Entry, data: &[u8]) -> bool {
         let own = bytes(entry, data);
         let body = &own[..own.len().saturating_sub(2)];
-        self.alike(own).iter().any(|(known, _)| {
+        self.alike(own).any(|(known, _)| {
             let same = entry.verdict == Verdict::Wrong && known[..known.len() - 2] == *body;
             same || (own.len() + 3 >= known.len() || own.len() > 6) && known.starts_with(own)
         })
@@ -680,8 +696,7 @@ impl Known {
     /// If it is one without its end: which sides that can be of.
     fn is_cut_copy(&self, entry: &Entry, data: &[u8]) -> Option<[bool; 2]> {
         let own = bytes(entry, data);
-        let whole =
-            self.alike(own).iter().find(|(known, _)| known.len() > own.len() && known.starts_with(own));
+        let whole = self.alike(own).find(|(known, _)| known.len() > own.len() && known.starts_with(own));
         whole.map(|(_, sides)| *sides)
     }
 
@@ -695,7 +710,7 @@ impl Known {
                     .map(|missing| known.len() - missing)
                     .find(|length| own[at..].starts_with(&known[..*length]))
             };
-            match self.alike(&own[at..]).iter().find_map(|(known, _)| length(known)) {
+            match self.alike(&own[at..]).find_map(|(known, _)| length(known)) {
                 Some(length) => {
                     found.push(Span::new(at, at + length));
                     at += length;

@@ -94,14 +94,8 @@ impl Lane {
     /// The chunk that the byte at `at` of the buffer came in.
     #[inline]
     pub(super) fn row(&self, at: usize) -> &Row {
-        let at = at as isize;
-        match self.rows.last() {
-            Some(last) if last.from <= at => last,
-            _ => {
-                let next = self.rows.partition_point(|row| row.from <= at);
-                self.rows.get(next.saturating_sub(1)).unwrap_or(&NO_ROW)
-            }
-        }
+        let next = self.rows.partition_point(|row| row.from <= at as isize);
+        self.rows.get(next.saturating_sub(1)).unwrap_or(&NO_ROW)
     }
 
     /// The first `count` bytes are gone.

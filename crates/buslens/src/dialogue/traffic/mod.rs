@@ -6,6 +6,7 @@
 
 mod collect;
 mod conversation;
+mod cut;
 mod entries;
 mod entry;
 mod judge;
@@ -17,6 +18,7 @@ mod statistics;
 mod stream;
 
 pub use collect::{Chunk, Traffic};
+pub use cut::Place;
 pub use entries::{Entries, Iter};
 pub use entry::{Entry, Hint, Role, Written};
 pub use settle::Lines;

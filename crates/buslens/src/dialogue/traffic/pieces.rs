@@ -1,6 +1,8 @@
 //! Pieces of a text: what in them is proven to be a telegram, what is the beginning of one that goes on in the
 //! next piece, and what may be one.
 
+use std::hash::{Hash, Hasher};
+
 use super::collect::{Traffic, has_length, is_right, keep};
 use super::entry::{Hint, NO_TIME, Role};
 use super::judge::Weak;
@@ -33,6 +35,12 @@ pub(super) struct Held {
 }
 
 impl Held {
+    /// See [`Traffic::place`].
+    pub fn hash_state(&self, line: u32, days: i64, hasher: &mut impl Hasher) {
+        (&self.bytes, self.from, self.latest, &self.entries, self.complete, self.age).hash(hasher);
+        self.rows.iter().for_each(|row| row.hash_state(line, days, hasher));
+    }
+
     /// Entries are counted from `first` on; `false` if it has one before.
     pub fn count_from(&mut self, first: u32) -> bool {
         let counted = self.entries.iter().all(|entry| *entry >= first);
@@ -258,7 +266,7 @@ impl Traffic {
         found.clear();
         let waiting = self.waiting_at(index);
         let mut at = 0;
-        while at < bytes.len() {
+        loop {
             let waiting = waiting.filter(|_| at == 0);
             let waiting = waiting.as_ref();
             let place = Place { bytes: &bytes[at..], last: true, in_step: true, waiting };
@@ -337,11 +345,9 @@ impl Traffic {
     /// Finds the telegrams inside of a piece that are beyond doubt.
     fn inside(&self, index: usize, bytes: &[u8], found: &mut Vec<Found>) {
         found.clear();
-        let protocols = [&modbus_rtu::PROTOCOL, &profibus_fdl::PROTOCOL];
-        let most = protocols.into_iter().map(|protocol| (self.splitter.covered(protocol, bytes), protocol));
-        let (covered, protocol) = most
-            .reduce(|best, other| if other.0 > best.0 { other } else { best })
-            .unwrap_or((0, protocols[0]));
+        let [fdl, rtu] = [&profibus_fdl::PROTOCOL, &modbus_rtu::PROTOCOL]
+            .map(|protocol| (self.splitter.covered(protocol, bytes), protocol));
+        let (covered, protocol) = std::cmp::max_by_key(fdl, rtu, |(covered, _)| *covered);
         let mut at = 0;
         let mut waiting = self.waiting_at(index);
         while covered > 0 && at < bytes.len() {
@@ -397,7 +403,7 @@ impl Traffic {
         let mut at = 0;
         let ends = found.iter().map(|(from, to, ..)| (*from, *to)).chain([(bytes.len(), bytes.len())]);
         for (from, to) in ends {
-            if at < from && said {
+            if said {
                 let rest = &bytes[at..from];
                 let cut = evidence::reading(rest, &self.splitter, self.waiting_at(index))
                     .filter(|it| it.cut && from == bytes.len());
@@ -473,7 +479,7 @@ impl Traffic {
         let rest = &joined[held.from..];
         let mut found = Vec::new();
         let whole = self.whole(index, rest, true, &mut found);
-        if !whole && same && self.goes_on_behind(index, rest, length - held.from, &mut found) {
+        if !whole && same && self.goes_on_behind(index, rest, &mut found) {
             return self.take_with_tail(index, held, bytes, row, &found);
         }
         if whole || self.is_beginning(index, rest) && same {
@@ -501,12 +507,12 @@ impl Traffic {
         false
     }
 
-    /// Whether a telegram whose first bytes were `held` ends within `bytes`, and another one begins there: what
+    /// Whether a telegram whose first bytes were held ends within `bytes`, and another one begins there: what
     /// was received came in parts that are no telegrams.
-    fn goes_on_behind(&self, index: usize, bytes: &[u8], held: usize, found: &mut Vec<Found>) -> bool {
+    fn goes_on_behind(&self, index: usize, bytes: &[u8], found: &mut Vec<Found>) -> bool {
         [&modbus_tcp::PROTOCOL, &modbus_rtu::PROTOCOL].into_iter().any(|protocol| {
             let end = self.leading(index, protocol, bytes, true, found);
-            end > held && self.is_beginning(index, &bytes[end..])
+            end > 0 && self.is_beginning(index, &bytes[end..])
         })
     }
 

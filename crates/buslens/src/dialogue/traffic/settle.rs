@@ -16,6 +16,9 @@ const CLEAR_BLOCK: usize = 1 << 10;
 /// So many stay behind them, since what follows a telegram tells more of it.
 const BEHIND: usize = 64;
 
+/// A piece of a text has no more lines; it is known by its first one when its last one was read.
+const PIECE: u32 = 1 << 13;
+
 impl Traffic {
     /// Settles what is complete, up to a line that is read.
     #[inline]
@@ -28,6 +31,7 @@ impl Traffic {
                 // What has no lines has none to list: so many show that something else is there.
                 0 => self.passed.truncate(BLOCK),
                 _ => {
+                    let line = line.saturating_sub(PIECE);
                     self.settle(self.entries.partition_point(|entry| entry.line < line));
                     self.close_lines(line);
                 }
@@ -59,13 +63,22 @@ impl Traffic {
         Some(ready.min(BLOCK))
     }
 
+    /// Settles all but the last ones, and the lines before them; so many were read.
+    pub(super) fn settle_ready(&mut self, line: u32) {
+        self.settle_blocks(line);
+        match self.entries.len().checked_sub(BEHIND) {
+            Some(ready) if ready > 0 => self.settle(self.end_of_block(ready)),
+            _ => self.settle(0),
+        }
+    }
+
     /// Where the next block of so many telegrams ends: behind an answer and a line, if there is such a place nearby.
     fn end_of_block(&self, block: usize) -> usize {
         let of_line = |end: &usize| match &self.entries[end - 1..=*end] {
             [last, next] => last.line != next.line || next.line == 0,
             _ => false,
         };
-        let ends = || (block - BEHIND..=block).rev().filter(of_line);
+        let ends = || (block.saturating_sub(BEHIND).max(1)..=block).rev().filter(of_line);
         ends().find(|end| self.entries[end - 1].sides[1]).or_else(|| ends().next()).unwrap_or(block)
     }
 
@@ -140,7 +153,7 @@ impl Lines {
         self.0.memory()
     }
 
-    fn push(&mut self, (line, offset): (u32, u64)) {
+    pub(super) fn push(&mut self, (line, offset): (u32, u64)) {
         self.0.push([line.into(), offset]);
     }
 }

@@ -95,10 +95,10 @@ const RETRY: usize = 16;
 fn class(entry: &Entry) -> usize {
     let bit = |bit: usize, is: bool| bit * usize::from(is);
     bit(RESPONSE, entry.direction == Direction::Response)
-        | bit(PARTNER, entry.partner().is_some())
-        | bit(WRONG, entry.verdict == Verdict::Wrong)
-        | bit(PLAIN, entry.role == Role::Plain)
-        | bit(RETRY, entry.role == Role::Retry)
+        + bit(PARTNER, entry.partner().is_some())
+        + bit(WRONG, entry.verdict == Verdict::Wrong)
+        + bit(PLAIN, entry.role == Role::Plain)
+        + bit(RETRY, entry.role == Role::Retry)
 }
 
 impl Counts {
@@ -149,14 +149,14 @@ impl Tally {
             let chosen = self.counts.iter().enumerate().filter(|(class, _)| class & bits == of);
             chosen.map(|(_, count)| *count as usize).sum::<usize>()
         };
-        let asks = |bits: usize| sum(RESPONSE | PLAIN | bits, PLAIN) + sum(RESPONSE | RETRY | bits, RETRY);
+        let asks = |bits: usize| sum(RESPONSE + PLAIN + bits, PLAIN) + sum(RESPONSE + RETRY + bits, RETRY);
         Dialog {
             port: self.port,
             unit: self.unit,
             function: self.function & !EXCEPTION,
             telegrams: sum(0, 0),
             requests: asks(0),
-            answered: sum(RESPONSE | PARTNER, RESPONSE | PARTNER),
+            answered: sum(RESPONSE + PARTNER, RESPONSE + PARTNER),
             unanswered: asks(PARTNER),
             retries: sum(RETRY, RETRY),
             exceptions: if self.function & EXCEPTION == 0 { 0 } else { sum(RESPONSE, RESPONSE) },
@@ -185,10 +185,9 @@ impl Dialog {
 
 /// Port, unit and function in one number.
 fn key(entry: &Entry) -> u64 {
-    u64::from(entry.port) << 24
-        | u64::from(entry.unit.is_some()) << 16
-        | u64::from(entry.unit.unwrap_or_default()) << 8
-        | u64::from(entry.function)
+    let [high, low] = entry.port.to_be_bytes();
+    let unit = [entry.unit.is_some().into(), entry.unit.unwrap_or_default()];
+    u64::from_be_bytes([0, 0, 0, high, low, unit[0], unit[1], entry.function])
 }
 
 /// The places of tallies, in the order in which they are met.
@@ -205,7 +204,8 @@ impl Places {
     #[inline]
     fn of(&mut self, entry: &Entry) -> usize {
         let key = key(entry);
-        let shelf = (key ^ key >> 8 ^ key << 4) as usize % Self::SHELVES;
+        let [shelf, ..] = key.wrapping_mul(0x9E37_79B9_7F4A_7C15).to_be_bytes();
+        let shelf = usize::from(shelf);
         match self.recent.get(shelf) {
             Some((recent, place)) if *recent == key && *place != usize::MAX => *place,
             _ => self.look_up(key, shelf),

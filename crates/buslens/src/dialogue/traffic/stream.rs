@@ -76,7 +76,7 @@ impl Traffic {
     /// Takes the telegrams out of what waits in a lane.
     pub(super) fn drain_buffer(&mut self, index: usize, last: bool) {
         let buffer = std::mem::take(&mut self.lanes[index].buffer);
-        let used = self.split(index, &buffer, 0, last);
+        let used = self.split(index, &buffer, last);
         let lane = &mut self.lanes[index];
         lane.buffer = buffer;
         lane.buffer.drain(..used);
@@ -87,15 +87,14 @@ impl Traffic {
         }
     }
 
-    /// Takes the telegrams out of bytes that begin at `from` in the lane; returns how many are done
-    /// with.
-    pub(super) fn split(&mut self, index: usize, bytes: &[u8], from: usize, last: bool) -> usize {
+    /// Takes the telegrams out of the bytes of a lane, all that it has; returns how many are done with.
+    pub(super) fn split(&mut self, index: usize, bytes: &[u8], last: bool) -> usize {
         /// So much that no telegram begins in is given up at once.
         const HOPELESS: usize = 1 << 14;
         /// A telegram, and another one behind it, have to be there before pauses can tell.
         const SEEN: usize = 512;
         let (main, flowing) = (self.main(index), self.flowing);
-        let port = usize::from(self.lanes[index].row(from).port);
+        let port = usize::from(self.lanes[index].row(0).port);
         let mut in_step = self.lanes[index].in_step;
         // All that is done with becomes entries, one behind the other: with the first of them, all of
         // it is kept.
@@ -112,7 +111,7 @@ impl Traffic {
                 if run > 0 {
                     let kept = *kept.get_or_insert_with(|| keep(&mut self.data, bytes));
                     let framed = std::mem::take(&mut self.framed);
-                    self.push_all(index, &bytes[at..], from + at, kept + at, &framed);
+                    self.push_all(index, &bytes[at..], at, kept + at, &framed);
                     self.framed = framed;
                     at += run;
                     garbage = at;
@@ -124,21 +123,19 @@ impl Traffic {
             match self.splitter.begins(main, place) {
                 Begins::Telegram(length) => {
                     let length = match () {
-                        () if flowing => self.by_pauses(index, place, from + at, length),
-                        () if self.both_ways => self.by_segments(index, place, from + at, length),
+                        () if flowing => self.by_pauses(index, place, at, length),
+                        () if self.both_ways => self.by_segments(index, place, at, length),
                         () => length,
                     };
                     let kept = *kept.get_or_insert_with(|| keep(&mut self.data, bytes));
-                    if garbage < at {
-                        self.unframed(index, &bytes[garbage..at], from + garbage, kept + garbage);
-                    }
+                    self.unframed(index, &bytes[garbage..at], garbage, kept + garbage);
                     let telegram = &bytes[at..at + length];
                     let verdict = if main.is(&modbus_rtu::PROTOCOL) {
                         Verdict::Right
                     } else {
                         (main.verdict)(telegram)
                     };
-                    self.push(index, telegram, from + at, kept + at, main, verdict, Role::Plain);
+                    self.push(index, telegram, at, kept + at, main, verdict, Role::Plain);
                     at += length;
                     (garbage, in_step) = (at, true);
                 }
@@ -147,23 +144,22 @@ impl Traffic {
                     (at, in_step) = (at + 1, false);
                     if at - garbage >= HOPELESS {
                         let kept = *kept.get_or_insert_with(|| keep(&mut self.data, bytes));
-                        self.discard(index, &bytes[garbage..at], from + garbage, kept + garbage);
+                        self.discard(index, &bytes[garbage..at], garbage, kept + garbage);
                         garbage = at;
                     }
                 }
             }
         }
-        if last && garbage < at {
+        if last {
             let kept = *kept.get_or_insert_with(|| keep(&mut self.data, bytes));
             let rest = &bytes[garbage..at];
             match evidence::reading(rest, &self.splitter, self.waiting[port]) {
                 // The recording ends within the answer.
                 Some(cut) if cut.cut && cut.awaited && cut.from == 0 && main.is(&modbus_rtu::PROTOCOL) => {
-                    let (from, at) = (from + garbage, kept + garbage);
-                    self.push(index, rest, from, at, cut.protocol, cut.verdict, Role::Plain);
+                    self.push(index, rest, garbage, kept + garbage, cut.protocol, cut.verdict, Role::Plain);
                     self.entries.last_mut().expect("it was added").sides = [false, true];
                 }
-                _ => self.unframed(index, rest, from + garbage, kept + garbage),
+                _ => self.unframed(index, rest, garbage, kept + garbage),
             }
             garbage = at;
         }

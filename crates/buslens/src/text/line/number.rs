@@ -79,7 +79,7 @@ impl Scan {
     /// Adds the bytes of an even number of hex digits.
     fn push_pairs(&mut self, line: &[u8], at: usize, to: usize) {
         let pairs = line[at..to].chunks_exact(2);
-        self.hex.extend(pairs.map(|pair| DIGITS[usize::from(pair[0])] << 4 | DIGITS[usize::from(pair[1])]));
+        self.hex.extend(pairs.map(|pair| DIGITS[usize::from(pair[0])] * 16 + DIGITS[usize::from(pair[1])]));
         if !self.hex_only() {
             self.decimal.resize(self.hex.len(), 0);
         }
@@ -95,7 +95,7 @@ impl Scan {
             if matches!(digits.get(count), Some(b'x' | b'X')) {
                 count = count.saturating_sub(1);
             }
-            if count == 0 || (count > 2 && count % 2 == 1) {
+            if count == 0 || (count != 1 && !count.is_multiple_of(2)) {
                 return Token::Word;
             }
             for pair in (0..count).step_by(2) {
@@ -105,8 +105,9 @@ impl Scan {
             }
             from += 2 + count;
         }
-        match line[from..to].first() {
-            None | Some(b'u' | b'U' | b'l' | b'L' | b'i') if to - from <= 3 => {
+        match &line[from..to] {
+            [] => Token::Bytes(marked(Style::Prefixed)),
+            suffix @ [b'u' | b'U' | b'l' | b'L' | b'i', ..] if suffix.len() <= 3 => {
                 Token::Bytes(marked(Style::Prefixed))
             }
             _ => Token::Word,

@@ -186,7 +186,7 @@ impl Scan {
         hex.extend(bytes.clone().map(|[high, low]| {
             all_decimal &= (high < 10) & (low < 10);
             padded |= high == 0;
-            high << 4 | low
+            high * 16 + low
         }));
         if !hex_only {
             decimal.extend(bytes.map(|[high, low]| high.wrapping_mul(10).wrapping_add(low)));

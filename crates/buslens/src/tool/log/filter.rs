@@ -189,7 +189,7 @@ impl Log {
     /// Where the lines begin that hold `text`, in any letters.
     fn lines_with(&self, text: &str, source: &dyn Source, size: u64) -> Vec<u64> {
         const PART: usize = 1 << 20;
-        let text = text.to_lowercase().into_bytes();
+        let text = text.to_ascii_lowercase().into_bytes();
         let size = self.transcoded.as_ref().map_or(size, |text| text.len() as u64);
         let mut found = Vec::new();
         let (mut from, mut line_start) = (0_u64, 0_u64);

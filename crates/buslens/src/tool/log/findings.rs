@@ -3,9 +3,10 @@
 use std::collections::{BTreeMap, HashMap};
 use std::hash::Hash;
 
+use super::sums::{Shown, Sums};
 use super::{Dialog, Entry, Log, Role, Source};
 use crate::dialogue::Cause;
-use crate::field::{Direction, Message, grouped, many};
+use crate::field::{Message, grouped, many};
 use crate::frame::Verdict;
 use crate::message;
 use crate::tool::{Proposal, ValueFinding, value_findings};
@@ -22,7 +23,7 @@ pub struct Finding {
 }
 
 /// So many telegrams are shown as evidence.
-const EVIDENCE: usize = 1000;
+pub(super) const EVIDENCE: usize = 1000;
 
 impl Log {
     /// The findings, the gravest first. It takes as long as explaining some hundred telegrams.
@@ -84,14 +85,15 @@ impl Log {
         /// So many are explained, spread over the log.
         const SAMPLE: usize = 300;
         const FEWEST: usize = 3;
-        let wrong: Vec<usize> = self
-            .entries()
-            .iter()
-            .enumerate()
+        let failed = self.sums().failed;
+        if failed == 0 {
+            return None;
+        }
+        let entries = self.entries().iter().enumerate();
+        let wrong = entries
             .filter(|(_, entry)| entry.verdict == Verdict::Wrong && entry.role != Role::Discarded)
-            .map(|(index, _)| index)
-            .collect();
-        let sample: Vec<usize> = wrong.iter().copied().step_by(wrong.len().div_ceil(SAMPLE).max(1)).collect();
+            .map(|(index, _)| index);
+        let sample: Vec<usize> = wrong.step_by(failed.div_ceil(SAMPLE)).collect();
         let mut causes: BTreeMap<&'static str, (Cause, Vec<u32>)> = BTreeMap::new();
         for index in &sample {
             let (report, place) = self.report_of(source, *index);
@@ -105,13 +107,9 @@ impl Log {
             return None;
         }
         let (what, advice) = advice(cause);
-        let of = match sample.len() < wrong.len() {
+        let of = match sample.len() < failed {
             true => {
-                format!(
-                    "{} looked at ({} in all)",
-                    many(sample.len(), "wrong checksum"),
-                    grouped(wrong.len())
-                )
+                format!("{} looked at ({} in all)", many(sample.len(), "wrong checksum"), grouped(failed))
             }
             false => many(sample.len(), "wrong checksum"),
         };
@@ -130,10 +128,8 @@ impl Log {
 
     /// Much that is no telegram at all.
     fn of_noise(&self) -> Option<Finding> {
-        let all: usize = self.entries().iter().map(|entry| usize::from(entry.length)).sum();
+        let Sums { bytes: all, lost, .. } = *self.sums();
         let bad = |entry: &Entry| entry.role == Role::Discarded || entry.verdict == Verdict::Wrong;
-        let lost: usize =
-            self.entries().iter().filter(|entry| bad(entry)).map(|entry| usize::from(entry.length)).sum();
         (all > 200 && lost * 2 > all).then(|| Finding {
             code: "not-understood",
             text: message!(
@@ -237,30 +233,25 @@ impl Log {
     /// Units whose answers sometimes take much longer than usual.
     fn of_slowness(&self) -> Vec<Finding> {
         const FEWEST: usize = 3;
-        let mut slow: BTreeMap<(u16, Option<u8>), Vec<u32>> = BTreeMap::new();
-        for (entry, index) in self.entries().iter().zip(0_u32..).filter(|(entry, _)| self.is_slow(entry)) {
-            slow.entry((entry.port, entry.unit)).or_default().push(index);
-        }
         let units = self.units();
-        let of_unit = |((port, unit), evidence): ((u16, Option<u8>), Vec<u32>)| {
-            let latency = |index: &u32| self.latency(&self.entry(*index as usize));
-            let least = evidence.iter().filter_map(latency).min()?;
-            let usual = units.iter().find(|it| (it.port, it.unit) == (port, unit))?.median?;
+        let of_unit = |((port, unit), slow): (&(u16, Option<u8>), &Shown)| {
+            let usual = units.iter().find(|it| (it.port, it.unit) == (*port, *unit))?.median?;
             let who = unit.map_or("The server".to_owned(), |unit| format!("Unit {unit}"));
-            (evidence.len() >= FEWEST).then(|| Finding {
+            let least = slow.least.filter(|_| slow.count >= FEWEST)?;
+            Some(Finding {
                 code: "slow-answers",
                 text: message!(
                     "{who}: {n} took {least} ms or more, usually {usual} ms. See what it was busy with then, or let the \
                      client wait longer",
                     who = who,
-                    n = many(evidence.len(), "answer"),
+                    n = many(slow.count, "answer"),
                     least = grouped(least as usize / 1000),
                     usual = grouped((usual as usize).div_ceil(1000))
                 ),
-                evidence: evidence.into_iter().take(EVIDENCE).collect(),
+                evidence: slow.first.clone(),
             })
         };
-        let mut findings: Vec<Finding> = slow.into_iter().filter_map(of_unit).collect();
+        let mut findings: Vec<Finding> = self.sums().slow.iter().filter_map(of_unit).collect();
         shorten(&mut findings, |n| message!("{n} more answered slowly at times", n = many(n, "unit")));
         findings
     }
@@ -268,30 +259,14 @@ impl Log {
     /// Requests before an answer to the last one could come.
     fn of_clients(&self) -> Option<Finding> {
         const FEWEST: usize = 5;
-        let median = self.statistics().dialogs.iter().filter_map(|dialog| dialog.median).min()?;
-        let mut hasty = Vec::new();
-        let mut before: Option<Entry> = None;
-        for (entry, index) in self.entries().iter().zip(0_u32..).filter(|(entry, _)| entry.counts()) {
-            let serial = entry.protocol().waiting == 1;
-            if let (Some(earlier), Direction::Request, true) = (before, entry.direction, serial)
-                && earlier.direction == Direction::Request
-                && earlier.asks()
-                && entry.asks()
-                && entry.role != Role::Echo
-                && let (Some(then), Some(now)) = (earlier.time(), entry.time())
-                && (0..i64::from(median) / 2).contains(&(now - then))
-            {
-                hasty.push(index);
-            }
-            before = Some(entry);
-        }
-        (hasty.len() >= FEWEST).then(|| Finding {
+        let hasty = &self.sums().hasty;
+        (hasty.count >= FEWEST).then(|| Finding {
             code: "two-clients",
             text: message!(
                 "{n} sent before the previous one could be answered: are there two clients (masters) on the line?",
-                n = many(hasty.len(), "request")
+                n = many(hasty.count, "request")
             ),
-            evidence: hasty.into_iter().take(EVIDENCE).collect(),
+            evidence: hasty.first.clone(),
         })
     }
 

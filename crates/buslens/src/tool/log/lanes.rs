@@ -68,15 +68,28 @@ impl Log {
             found.filter(|_| entry.role != Role::Discarded).unwrap_or(units.len())
         };
         let span = i128::from(to) - i128::from(from) + 1;
+        // Most telegrams are of the same stretch as the one before: its first and last place.
+        let (mut place, mut stretch) = (0, from..=from);
         for (index, entry) in self.entries().iter().enumerate() {
             let at = if timed.is_some() { entry.time() } else { Some(index as i64) };
             let Some(at) = at.filter(|at| (from..=to).contains(at)) else { continue };
-            let place = ((i128::from(at) - i128::from(from)) * stretches as i128 / span) as usize;
+            if !stretch.contains(&at) {
+                let behind = (i128::from(at) - i128::from(from)) * stretches as i128 / span;
+                let begins = |stretch: i128| {
+                    i128::from(from) + (stretch * span + stretches as i128 - 1) / stretches as i128
+                };
+                place = behind as usize;
+                stretch = begins(behind) as i64..=(begins(behind + 1) - 1) as i64;
+            }
             let state = self.state(&entry);
             let worst = if state == State::Slow { self.latency(&entry) } else { None };
             let marks = &mut lanes[lane_of(&entry)].marks;
             // Times may run backwards for a while.
-            match marks.binary_search_by_key(&place, |mark| mark.at) {
+            let known = match marks.last() {
+                Some(last) if last.at == place => Ok(marks.len() - 1),
+                _ => marks.binary_search_by_key(&place, |mark| mark.at),
+            };
+            match known {
                 Ok(known) => {
                     let mark = &mut marks[known];
                     mark.telegrams += 1;

@@ -3,7 +3,7 @@
 #[cfg(feature = "json")]
 use serde::{Deserialize, Serialize};
 
-use super::{Entry, Format, Log, Role, Source};
+use super::{Dialog, Entry, Format, Log, Role, Source};
 use crate::dialogue::Certainty;
 use crate::field::{Direction, Message, hex, in_order, many};
 use crate::frame::Verdict;
@@ -215,16 +215,14 @@ impl Log {
 
     /// Whether a response took much longer than is usual for its unit and function.
     pub(super) fn is_slow(&self, entry: &Entry) -> bool {
-        /// Less than this nobody notices.
-        const LEAST: u32 = 100_000;
-        if entry.direction == Direction::Request {
+        if !self.some_slow || entry.direction == Direction::Request {
             return false;
         }
-        let Some(latency) = self.latency(entry).filter(|latency| *latency >= LEAST) else { return false };
+        let Some(latency) = self.latency(entry) else { return false };
         let key = (entry.port, entry.unit, entry.plain_function());
         let dialogs = &self.statistics().dialogs;
         let at = dialogs.binary_search_by_key(&key, |dialog| (dialog.port, dialog.unit, dialog.function));
-        at.ok().and_then(|at| dialogs[at].median).is_some_and(|median| latency / 5 > median)
+        at.is_ok_and(|at| is_slow(&dialogs[at], latency))
     }
 
     /// The rows of the telegrams `indices`.
@@ -284,7 +282,7 @@ impl Log {
             fault: self.fault(),
             rows: self.entries().len(),
             telegrams: all.telegrams,
-            wrong: self.entries().iter().filter(|entry| self.state(entry).is_wrong()).count(),
+            wrong: self.sums().wrong,
             lines: self.lines() as usize,
             unread: self.unread().len(),
             times: all.times,
@@ -352,6 +350,13 @@ impl Report {
             State::Plain
         }
     }
+}
+
+/// Whether a response of so many microseconds took much longer than others of its dialog.
+pub(super) fn is_slow(dialog: &Dialog, latency: u32) -> bool {
+    /// Less than this nobody notices.
+    const LEAST: u32 = 100_000;
+    latency >= LEAST && dialog.median.is_some_and(|median| latency / 5 > median)
 }
 
 /// What a telegram says, in a list that has columns for who speaks and to whom.

@@ -22,7 +22,9 @@ mod places;
 mod redact;
 mod rows;
 mod seen;
+mod slices;
 mod story;
+mod sums;
 
 pub use crate::dialogue::traffic::{Dialog, Entries, Entry, Lines, Minutes, Role, Statistics};
 pub use crate::text::{LAYOUTS, Layout, Marks, Numbers, Place};
@@ -39,7 +41,11 @@ pub use pictures::{Bucket, Held, Point, Timeline};
 #[cfg(feature = "captures")]
 pub use redact::{Hidden, Kind, Redacted, Replaced};
 pub use seen::{Seen, seen};
+pub use slices::{Division, join};
 pub use story::time_text;
+
+use slices::Passed;
+use sums::Sums;
 
 use std::cell::{Cell, OnceCell};
 use std::collections::HashMap;
@@ -118,10 +124,17 @@ pub struct Log {
     lines: u32,
     taken: u64,
     full: bool,
+    /// All of it was read.
+    finished: bool,
+    /// Of a large file.
+    passed: Option<Passed>,
     /// A file in UTF-16, as it would be in UTF-8.
     transcoded: Option<Vec<u8>>,
     fault: Option<String>,
     statistics: Statistics,
+    /// Some responses took much longer than others.
+    some_slow: bool,
+    sums: OnceCell<Sums>,
     /// The telegrams that set up what others mean.
     teaching: OnceCell<Vec<usize>>,
 }
@@ -145,7 +158,7 @@ enum Way {
 /// A capture that is read from its file. It stands behind a trait so that a program that never opens one does
 /// without what reads the file: 10 kB of the page's first part.
 #[cfg(feature = "captures")]
-trait Captured: std::fmt::Debug {
+trait Captured: std::fmt::Debug + Send {
     fn push(&mut self, part: &[u8], sink: &mut dyn FnMut(Segment<'_>)) -> Result<(), Fault>;
     fn finish(&mut self, sink: &mut dyn FnMut(Segment<'_>)) -> Result<(), Fault>;
     fn capture(&self) -> &Capture;
@@ -279,7 +292,7 @@ impl Log {
             Format::Capture { .. } => captures.ok_or(Refusal::NoCaptures)?(),
         };
         let transcoded = matches!(input, Way::Utf16 { .. }).then(Vec::new);
-        Ok(Self {
+        let log = Self {
             options,
             format,
             form,
@@ -290,11 +303,16 @@ impl Log {
             lines: 0,
             taken: 0,
             full: false,
+            finished: false,
+            passed: None,
             transcoded,
             fault: None,
             statistics: Statistics::default(),
+            some_slow: false,
+            sums: OnceCell::new(),
             teaching: OnceCell::new(),
-        })
+        };
+        Ok(log.divided(Division::of(size)))
     }
 
     /// Reads a whole file that is in memory.
@@ -316,7 +334,20 @@ impl Log {
     }
 
     /// Takes the next part of the file; `false` if no more can be kept.
-    pub fn push(&mut self, part: &[u8]) -> bool {
+    pub fn push(&mut self, mut part: &[u8]) -> bool {
+        while part.len() >= self.before_mark() {
+            let (before, behind) = part.split_at(self.before_mark());
+            if !self.take_part(before) {
+                return false;
+            }
+            self.pass_mark();
+            part = behind;
+        }
+        self.take_part(part)
+    }
+
+    /// Takes a part with no mark in it.
+    fn take_part(&mut self, part: &[u8]) -> bool {
         let Self { input, traffic, ports, full, taken, transcoded, .. } = self;
         let mut room = *taken <= SMALL || Vec::<u8>::new().try_reserve_exact(SPARE).is_ok();
         let mut take = |event: Event<'_>| room &= self::take(event, traffic, ports);
@@ -366,6 +397,9 @@ impl Log {
     /// Counts what was settled so far, so that it can be looked at while the rest is read.
     pub fn look(&mut self) {
         self.statistics = statistics(&self.traffic);
+        let mut dialogs = self.statistics.dialogs.iter();
+        self.some_slow = dialogs.any(|dialog| dialog.worst.is_some_and(|worst| list::is_slow(dialog, worst)));
+        self.sums.take();
         self.teaching.take();
         if let Way::Text(reader) | Way::Utf16 { reader, .. } = &self.input {
             self.lines = reader.lines();
@@ -404,6 +438,7 @@ impl Log {
             }
         }
         self.traffic.finish();
+        self.finished = true;
         self.look();
     }
 
@@ -594,7 +629,7 @@ fn hint(sender: Option<Sender>) -> Hint {
 }
 
 /// The names that tell several lines and connections of a text apart, numbered from 1.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 struct Ports {
     numbers: HashMap<Vec<u8>, u16>,
     names: Vec<String>,

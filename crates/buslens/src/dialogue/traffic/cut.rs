@@ -1,0 +1,321 @@
+//! Large logs can be read in slices, each by a reader of its own, and joined: the same comes out as when one reads
+//! all of it.
+//!
+//! For that, what is true for a whole log is told by its beginning, see [`Traffic::settle_context`]. From there on
+//! the file has marks at equal distances, and what is behind a mark hangs on little before it: on what waits there
+//! for its rest, and on the last telegrams. Where two readers are alike at a mark, all that they find behind it is
+//! the same.
+
+use std::hash::{Hash, Hasher};
+use std::sync::Arc;
+
+use super::collect::{Latest, Traffic};
+use super::entry::{Entry, NO_TIME, NOBODY, Written};
+use super::judge::{Known, Shapes};
+use super::lane::{Carries, Lane, Row};
+use crate::dialogue::foreign::{FOREIGN, FT12};
+
+/// What the beginning of a log tells of all of it.
+#[derive(Clone, Debug)]
+pub(super) struct Context {
+    pub known: Arc<Known>,
+    shapes: Shapes,
+    in_columns: usize,
+    seen: Vec<u64>,
+    typed: bool,
+    turns: bool,
+    foreign_protocols: [u32; FOREIGN.len()],
+    /// How many were seen up to the last mark.
+    foreign_before: [u32; FOREIGN.len()],
+}
+
+/// A place between two telegrams, in the numbers of one reader.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Place {
+    /// How many telegrams, lines without one, and pauses are settled before it.
+    telegrams: usize,
+    lines: usize,
+    pauses: usize,
+    /// How many lines are read before it, and how often midnight passed.
+    line: u32,
+    days: i64,
+    foreign_protocols: [u32; FOREIGN.len()],
+    /// The telegrams before it that those behind it may have to do with: how far before it they are.
+    open: Vec<usize>,
+    /// Two readers are alike where this is the same.
+    pub state: u64,
+}
+
+impl Traffic {
+    /// What was read so far, so many lines, is the beginning of the log, and tells what is true for the rest; `false` if
+    /// that tells too little.
+    pub fn settle_context(&mut self, line: u32) -> bool {
+        /// So many telegrams tell it.
+        const ENOUGH: usize = 400;
+        if !self.meeting.is_settled() && self.entries.len() >= ENOUGH {
+            self.settle_ready(line);
+        }
+        if !self.meeting.is_settled() {
+            return false;
+        }
+        self.context = Some(Context {
+            known: Arc::new(std::mem::take(&mut self.known)),
+            shapes: self.shapes.clone(),
+            in_columns: self.in_columns,
+            seen: self.seen.clone(),
+            typed: self.typed,
+            turns: self.turns,
+            foreign_protocols: self.foreign_protocols,
+            foreign_before: self.foreign_protocols,
+        });
+        true
+    }
+
+    /// The file passes a mark, behind so many lines: what is far before it does not count any more.
+    pub fn pass_mark(&mut self, line: u32) {
+        if self.context.is_none() {
+            return;
+        }
+        for port in 0..self.waiting.len() {
+            if !std::mem::take(&mut self.heard[port]) {
+                self.fall_silent(port as u16);
+            }
+        }
+        self.settle_ready(line);
+        self.meeting.forget(self.settled.len());
+        if let Some(context) = &mut self.context {
+            self.shapes.clone_from(&context.shapes);
+            self.seen.clone_from(&context.seen);
+            (self.in_columns, self.typed, self.turns) = (context.in_columns, context.typed, context.turns);
+            context.foreign_before = self.foreign_protocols;
+        }
+    }
+
+    /// Nothing was heard of a port since the last mark.
+    fn fall_silent(&mut self, port: u16) {
+        for way in [0, 1] {
+            if let Some(lane) = self.lane_of.get(&(port, way)).copied() {
+                self.close(lane);
+                self.lanes[lane].empty();
+            }
+        }
+        self.waiting[usize::from(port)] = None;
+        self.meeting.fall_silent(port);
+    }
+
+    /// Goes on elsewhere in the file, of which nothing is known but what the beginning told.
+    pub fn jump(&mut self) {
+        (self.entries, self.data) = (Vec::new(), Vec::new());
+        self.lanes.iter_mut().for_each(Lane::empty);
+        self.waiting.iter_mut().for_each(|waiting| *waiting = None);
+        self.heard.iter_mut().for_each(|heard| *heard = false);
+        self.meeting.jump();
+        (self.clock, self.days) = (NO_TIME, 0);
+        self.latest_piece = Latest::default();
+        (self.weak, self.gone, self.fresh_pauses) = (Vec::new(), Vec::new(), Vec::new());
+        (self.passed, self.unread) = (Vec::new(), Vec::new());
+    }
+
+    /// How many short frames of M-Bus and IEC 60870-5 tell of the telegrams at hand.
+    pub(super) fn short_frames(&self) -> u32 {
+        let all = self.foreign_protocols[FT12];
+        match &self.context {
+            Some(context) => context.foreign_protocols[FT12] + all - context.foreign_before[FT12],
+            None => all,
+        }
+    }
+
+    /// Where the reader is, at a mark behind so many lines; `text` is the state of what reads the text.
+    pub fn place(&self, line: u32, mut text: impl Hasher) -> Place {
+        self.hash_state(line, &mut text);
+        Place {
+            telegrams: self.settled.len(),
+            lines: self.lines.len(),
+            pauses: self.pauses.len(),
+            line,
+            days: self.days,
+            foreign_protocols: self.foreign_protocols,
+            open: self.meeting.open(self.settled.len()),
+            state: text.finish(),
+        }
+    }
+
+    /// All that what comes next hangs on, apart from the beginning of the log; lines, times of day and telegrams are
+    /// counted from here.
+    fn hash_state(&self, line: u32, hasher: &mut impl Hasher) {
+        let first = self.entries.first().map_or(self.data.len() as u64, |entry| entry.at);
+        self.entries.len().hash(hasher);
+        for entry in &self.entries {
+            let entry = Entry { at: entry.at - first, ..*entry };
+            hash_entry(&entry, line, self.days, hasher);
+        }
+        self.data.get(first as usize..).hash(hasher);
+        self.lanes.len().hash(hasher);
+        for lane in &self.lanes {
+            lane.hash_state(line, self.days, hasher);
+        }
+        self.latest_way.hash(hasher);
+        self.waiting.hash(hasher);
+        shifted(self.clock, self.days).hash(hasher);
+        self.both_ways.hash(hasher);
+        (self.typed, self.turns, self.in_columns).hash(hasher);
+        (&self.gone, &self.fresh_pauses).hash(hasher);
+        for weak in &self.weak {
+            (weak.entry, weak.bits, weak.read, weak.cut, weak.awaited, weak.facts).hash(hasher);
+        }
+        for (passed, offset) in self.passed.iter().chain(&[(line, u64::MAX)]).chain(&self.unread) {
+            (line - passed, offset).hash(hasher);
+        }
+        let Latest { line: latest, bytes, hint } = &self.latest_piece;
+        (behind(line, *latest), bytes, hint).hash(hasher);
+        self.meeting.hash_state(self.settled.len(), line, self.days, hasher);
+    }
+
+    /// Whether all that `other` finds behind `there` is found by this one behind `here`, too.
+    pub fn is_alike(&self, here: &Place, other: &Self, there: &Place) -> bool {
+        // Days are counted for times of day only.
+        here.state == there.state && (here.days == there.days || !(self.dated || other.dated))
+    }
+
+    /// Takes over what `other` settled between two places, or from the first one on. There it was as this one is
+    /// `here`, which is the end of what this one has: what it still had in hand, the other one has.
+    pub fn adopt(&mut self, here: &Place, other: &Self, from: &Place, to: Option<&Place>) {
+        const AT_ONCE: usize = 4096;
+        let base = here.telegrams;
+        debug_assert_eq!(base, self.settled.len(), "it has more than it had at the mark");
+        let telegrams = to.map_or(other.settled.len(), |to| to.telegrams);
+        let moved = |index: u32| index.wrapping_sub(from.telegrams as u32).wrapping_add(base as u32);
+        // Those in hand at the mark stand in lines before it.
+        let moved_line = |line: u32| line.wrapping_sub(from.line).wrapping_add(here.line);
+        let days = here.days - from.days;
+        let translated = |entry: Entry| Entry {
+            time: if entry.time == NO_TIME { NO_TIME } else { entry.time + days },
+            line: if entry.line == 0 { 0 } else { moved_line(entry.line) },
+            partner: if entry.partner == NOBODY { NOBODY } else { moved(entry.partner) },
+            ..entry
+        };
+        // What those behind the place told of those before it.
+        for distance in &from.open {
+            let (own, others) = (base - distance, from.telegrams - distance);
+            if let (Some(own_entry), Some(entry)) = (self.settled.get(own), other.settled.get(others)) {
+                let Entry { partner, direction, role, sides, .. } = translated(entry);
+                self.settled.set(own, &Entry { partner, direction, role, sides, ..own_entry });
+            }
+        }
+        let mut block: Vec<Entry> = Vec::with_capacity(AT_ONCE);
+        let mut data = Vec::new();
+        for entry in other.settled.from(from.telegrams).take(telegrams - from.telegrams) {
+            let at = data.len() as u64;
+            data.extend_from_slice(other.settled.kept(&entry).unwrap_or_default());
+            block.push(Entry { at, ..translated(entry) });
+            if block.len() == AT_ONCE {
+                self.settled.extend(&block, &data);
+                block.clear();
+                data.clear();
+            }
+        }
+        self.settled.extend(&block, &data);
+        let lines = to.map_or(other.lines.len(), |to| to.lines) - from.lines;
+        for (line, offset) in other.lines.iter().skip(from.lines).take(lines) {
+            self.lines.push((moved_line(line), offset));
+        }
+        let pauses = to.map_or(other.pauses.len(), |to| to.pauses);
+        self.pauses
+            .extend(other.pauses[from.pauses..pauses].iter().map(|(index, pause)| (moved(*index), *pause)));
+        let foreign = to.map_or(&other.foreign_protocols, |to| &to.foreign_protocols);
+        for (place, count) in self.foreign_protocols.iter_mut().enumerate() {
+            *count = here.foreign_protocols[place] + foreign[place] - from.foreign_protocols[place];
+        }
+        self.room = (NOBODY as usize).saturating_sub(self.settled.len());
+        self.dated |= other.dated;
+        self.jump();
+    }
+}
+
+impl Place {
+    /// How many lines there are behind this place, which is `from` of a reader that has so many.
+    pub fn lines_behind(&self, from: &Self, lines: u32) -> u32 {
+        self.line + lines - from.line
+    }
+
+    /// The same place, which `to` of another reader is, in the numbers of the one that takes over what that has from
+    /// `from` on, where itself is `self`.
+    pub fn moved(&self, from: &Self, to: &Self) -> Self {
+        Self {
+            telegrams: self.telegrams + to.telegrams - from.telegrams,
+            lines: self.lines + to.lines - from.lines,
+            pauses: self.pauses + to.pauses - from.pauses,
+            line: self.line + to.line - from.line,
+            days: self.days + to.days - from.days,
+            foreign_protocols: std::array::from_fn(|place| {
+                self.foreign_protocols[place] + to.foreign_protocols[place] - from.foreign_protocols[place]
+            }),
+            open: to.open.clone(),
+            state: to.state,
+        }
+    }
+}
+
+impl Lane {
+    /// Nothing of it is in hand any more.
+    fn empty(&mut self) {
+        *self = Self {
+            streaming: self.stream,
+            stream: self.stream,
+            in_step: !self.stream,
+            carries: self.carries,
+            ..Self::default()
+        };
+    }
+
+    fn hash_state(&self, line: u32, days: i64, hasher: &mut impl Hasher) {
+        (&self.buffer, &self.decimal, &self.breaks).hash(hasher);
+        (self.streaming, self.in_step, self.barren).hash(hasher);
+        match self.carries {
+            Carries::Unknown => 0.hash(hasher),
+            Carries::Foreign => 1.hash(hasher),
+            Carries::Protocol(protocol) => protocol.key.hash(hasher),
+        }
+        // How the bytes of a stream came in parts says nothing.
+        let row = |row: &Row| match row.line {
+            0 if row.written.is_some() => {
+                Row { offset: row.offset.wrapping_add_signed(-row.from as i64), from: 0, ..*row }
+            }
+            _ => *row,
+        };
+        if !self.buffer.is_empty() {
+            let mut rows: Vec<Row> = self.rows.iter().map(row).collect();
+            rows.dedup_by_key(|row| (row.from, row.offset));
+            rows.iter().for_each(|row| row.hash_state(line, days, hasher));
+        }
+        if let Some(held) = &self.held {
+            held.hash_state(line, days, hasher);
+        }
+    }
+}
+
+impl Row {
+    pub(super) fn hash_state(&self, line: u32, days: i64, hasher: &mut impl Hasher) {
+        (self.from, shifted(self.time, days), self.hint, self.port, behind(line, self.line)).hash(hasher);
+        (self.offset, self.written, self.facts).hash(hasher);
+    }
+}
+
+/// How far a line is before the one at hand; what has no lines stays so.
+fn behind(line: u32, other: u32) -> u32 {
+    if other == 0 { u32::MAX } else { line.wrapping_sub(other) }
+}
+
+/// A time without the days that were counted.
+fn shifted(time: i64, days: i64) -> i64 {
+    if time == NO_TIME { NO_TIME } else { time.wrapping_sub(days) }
+}
+
+/// `entry.partner` is to be counted from the place at hand.
+pub(super) fn hash_entry(entry: &Entry, line: u32, days: i64, hasher: &mut impl Hasher) {
+    let Entry { time, at, offset, written, line: own, skip, length, partner, port, protocol, unit, .. } =
+        *entry;
+    (shifted(time, days), at, offset, written.map(|Written { from, step }| (from, step))).hash(hasher);
+    (behind(line, own), skip, length, partner, port, protocol, unit).hash(hasher);
+    (entry.function, entry.verdict as u8, entry.direction, entry.role, entry.sides, entry.hint).hash(hasher);
+}
