@@ -21,7 +21,8 @@
 //! | the check is there and wrong; the end is missing | −5; −3 |
 //! | bare in its line; said who sends it; a label before it | 4; 4; 2 |
 //! | in brackets of its own; marked as bytes; a row of a dump; words of the trade | 3; 2; 3; 3 |
-//! | a number beside it says its length | 6 |
+//! | a number beside it says its length, or its check is named behind it: `[CRC]` | 6 |
+//! | commas between numbers of one digit; one decimal number | −6 |
 //! | called left over or thrown away | −6 |
 //! | it is of an array of a program, whose brackets, marks and size say nothing | −2 |
 //! | its numbers have two bytes and a mark each, as registers and addresses are written | −8 |
@@ -88,7 +89,8 @@ pub fn place(facts: &Facts) -> i32 {
         + of(facts.marked, 2)
         + of(facts.dumped, 3)
         + of(facts.of_telegrams, 3)
-        + of(facts.counted, 6)
+        + of(facts.counted || facts.check_named, 6)
+        + of(facts.digits, -6)
         + of(facts.of_leftovers, -6)
         + of(facts.words, -8)
 }
@@ -286,8 +288,10 @@ fn cut(bytes: &[u8], splitter: &Splitter, waiting: Option<Waiting>) -> Option<Re
         return None;
     }
     let check = if missing == 1 { 8 } else { 0 };
+    // Of registers the count is even; of switches any will do.
+    let counted = if matches!(code, 1 | 2) { -2 } else { 1 };
     is_cut(bytes, missing, false)
-        .then(|| without_check(0, unit(first) + function(code) + 1 + check + CUT, true))
+        .then(|| without_check(0, unit(first) + function(code) + counted + check + CUT, true))
 }
 
 /// Whether so many bytes are missing at the end of a telegram, and not somewhere within it: where most of the
@@ -314,7 +318,12 @@ fn over_tcp(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
     // Nearly right: a slip, or bytes that are missing.
     let near = length.abs_diff(bytes.len() - 6) <= 4 && pdu.len() > 1;
     let cut = length > bytes.len() - 6;
-    let inside = structure(pdu, splitter).or((cut && splitter.knows(*pdu.first()?)).then_some(UNTOLD))?;
+    let untold = match *pdu.first()? {
+        known if splitter.knows(known) => Some(UNTOLD),
+        1..EXCEPTION if (high, low) != (0, 0) => Some(2 * UNTOLD),
+        _ => None,
+    };
+    let inside = structure(pdu, splitter).or(untold.filter(|_| cut))?;
     let bits = header + if near { 8 } else { 0 } + inside + CUT;
     let reading = whole(&modbus_tcp::PROTOCOL, Verdict::NoCheck, bits);
     (length > 2 && (near || cut)).then_some(Reading { cut, ..reading })

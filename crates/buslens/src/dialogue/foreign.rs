@@ -65,11 +65,11 @@ fn is_meter_bus(bytes: &[u8]) -> bool {
 /// Source: IEC 60870-5-1, section 6.2.4.2; IEC 60870-5-2, section 6.1.2.
 fn is_telecontrol(bytes: &[u8]) -> bool {
     let [0x68, length, again, 0x68, covered @ .., sum, 0x16] = bytes else { return false };
-    let [control, _, next, _, ..] = covered else { return false };
+    let [control, _, next, ..] = covered else { return false };
     length == again
         && covered.len() == usize::from(*length)
         && covered.iter().fold(0_u8, |sum, byte| sum.wrapping_add(*byte)) == *sum
-        && matches!(control & 0x4F, 0x43 | 0x44 | 0x08)
+        && matches!(control & 0x4F, 0x40 | 0x43 | 0x44 | 0x4A | 0x4B | 0x08)
         && !Fdl::carries_data(*next)
 }
 

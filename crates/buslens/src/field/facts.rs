@@ -21,10 +21,15 @@ pub struct Facts {
     pub words: bool,
     /// Commas stand between its numbers.
     pub listed: bool,
+    /// Commas stand between its numbers, and each has one digit, as settings and counters have, too; or all of it is
+    /// one number of decimal digits that begins with none, as serial numbers are.
+    pub digits: bool,
     /// Its numbers have a prefix, an h, or are escapes: certainly bytes.
     pub marked: bool,
     /// A number beside it or in the line above says how many bytes it has.
     pub counted: bool,
+    /// Behind it stands a word for its check, in brackets or behind an arrow: `[CRC]`, `-> CRC`.
+    pub check_named: bool,
     /// Words that telegrams have near them stand in its line: frame, CRC.
     pub of_telegrams: bool,
     /// Words say that it was left over or thrown away.

@@ -41,6 +41,7 @@ pub use words::Sender;
 use std::hash::{Hash, Hasher};
 
 use crate::field::{Facts, Span};
+use characters::is_word;
 use columns::Columns;
 use dump::{Dump, Words};
 use line::{Alike, Like, Run, Scan, Start, Told};
@@ -745,10 +746,28 @@ fn is_labelled(line: &[u8], run: &Run) -> bool {
     matches!(before.last(), Some(b':' | b'=' | b'>' | b'-'))
 }
 
-/// Whether signs that stand for bytes follow a run: `01 86 03 xx xx`.
+/// Whether signs or a word that stand for bytes follow a run: `01 86 03 xx xx`, `01 86 03 [CRC]`.
 fn has_placeholder(line: &[u8], run: &Run) -> bool {
     let behind = line[run.span.to..].trim_ascii_start();
-    [b"xx", b"??", b"XX"].iter().any(|sign| behind.starts_with(*sign))
+    [b"xx", b"??", b"XX"].iter().any(|sign| behind.starts_with(*sign)) || names_check(behind)
+}
+
+/// Whether a text begins with a word for a check behind an arrow: `→ CRC = ?`, `-> CRC16`.
+fn leads_to_check(text: &[u8]) -> bool {
+    let arrows = ["→", "->", "=>", "+"].map(str::as_bytes);
+    let behind =
+        arrows.into_iter().find_map(|arrow| text.strip_prefix(arrow)).unwrap_or_default().trim_ascii_start();
+    behind.get(..3).is_some_and(|word| word.eq_ignore_ascii_case(b"crc"))
+}
+
+/// Whether a text begins with a word for a check, in brackets: `[CRC]`, `<crc16>`.
+fn names_check(text: &[u8]) -> bool {
+    const LONGEST: usize = 12;
+    let [b'[' | b'<' | b'{' | b'(', name @ ..] = text else { return false };
+    let ends = name.iter().take(LONGEST).position(|c| !is_word(*c) && !matches!(c, b'-' | b'_' | b' '));
+    let word =
+        name.get(..3).is_some_and(|word| [b"crc", b"lrc"].iter().any(|it| word.eq_ignore_ascii_case(*it)));
+    word && ends.is_some_and(|at| matches!(name[at], b']' | b'>' | b'}' | b')'))
 }
 
 /// What a line says of a run by how it stands there.
@@ -788,9 +807,14 @@ fn facts(line: &[u8], run: &Run, scan: &Scan) -> Facts {
         words: run.marked && run.tokens() > 1 && run.len() == 2 * run.tokens(),
         marked: run.marked,
         listed: run.is_list(),
+        digits: match run.span.of(line) {
+            number if run.tokens() == 1 => number[0] != b'0' && number.iter().all(u8::is_ascii_digit),
+            list => run.is_list() && !list.windows(2).any(|two| two.iter().all(u8::is_ascii_hexdigit)),
+        },
         of_telegrams: scan.of_telegrams,
         of_leftovers: scan.of_leftovers,
         abridged,
+        check_named: names_check(behind) || leads_to_check(behind),
         slips: scan.words == 0
             && (scan.slips > 0
                 || scan.near(run).iter().any(|other| other.first != run.first && other.span.len() == 1)),
@@ -850,8 +874,9 @@ pub fn recognise(text: &[u8]) -> Recognised {
     };
     reader.push(text, &mut count);
     reader.finish(&mut count);
-    let (numbers, style) = numbers(text);
-    let numbers = layout.and_then(|layout| layout.numbers).or(numbers);
+    let Written { numbers, style, padded } = numbers(text);
+    // The name of a program may stand in a text that was written by another one.
+    let numbers = layout.and_then(|layout| layout.numbers).filter(|_| !padded).or(numbers);
     Recognised { layout, numbers, style, with_bytes, telling, dumped }
 }
 
@@ -894,12 +919,22 @@ pub fn counted(text: &[u8], numbers: Option<Numbers>) -> bool {
     least < most
 }
 
-/// How all numbers of a text are written, if its lines leave no doubt, and how most bytes are written.
-fn numbers(text: &[u8]) -> (Option<Numbers>, Option<Style>) {
+/// How the numbers of a text are written.
+struct Written {
+    /// All of them, if its lines leave no doubt.
+    numbers: Option<Numbers>,
+    /// Most bytes.
+    style: Option<Style>,
+    /// There are some with a zero before one digit, which is not how decimal numbers are written.
+    padded: bool,
+}
+
+/// How the numbers of a text are written.
+fn numbers(text: &[u8]) -> Written {
     /// So many lines leave no doubt.
     const SURE: usize = 8;
     let mut scan = Scan::default();
-    let (mut hex, mut decimal) = (0, 0);
+    let (mut hex, mut decimal, mut padded) = (0, 0, false);
     let mut styles = [0; Style::ALL.len()];
     for line in text.split(|c| matches!(c, b'\n' | b'\r')) {
         scan.read(line, Start::default(), None);
@@ -908,6 +943,7 @@ fn numbers(text: &[u8]) -> (Option<Numbers>, Option<Style>) {
             if run.len() >= SHORTEST {
                 hex += usize::from(run.hex && !run.decimal);
                 decimal += usize::from(!run.hex && run.decimal);
+                padded |= run.is_padded();
             }
         }
     }
@@ -918,7 +954,7 @@ fn numbers(text: &[u8]) -> (Option<Numbers>, Option<Style>) {
         (0, SURE..) => Some(Numbers::Decimal),
         _ => None,
     };
-    (numbers, style.map(|(style, _)| style))
+    Written { numbers, style: style.map(|(style, _)| style), padded }
 }
 
 #[cfg(test)]

@@ -581,6 +581,14 @@ impl Traffic {
         let Some(function) = pdu.first().copied() else { return Said { unit, ..Said::default() } };
         let told = self.splitter.told(pdu);
         let mut sides = told.sides;
+        let number = |at: usize| pdu.get(at..at + 2).map_or(0, |word| u16::from_be_bytes([word[0], word[1]]));
+        // Three bytes of switches have the length of a request, but may ask for more than there can be.
+        if sides == [true; 2] && matches!(function, 1 | 2) && number(3) > MOST_SWITCHES {
+            sides = [false, true];
+        }
+        if verdict == Verdict::Wrong && sides == [true, false] && self.lacks_a_byte(port, unit, pdu) {
+            sides = [false, true];
+        }
         if sides == [false; 2] && told.known && hint == Hint::None {
             // The direction whose length it misses by less.
             let waiting = self.waiting[usize::from(port)];
@@ -597,6 +605,19 @@ impl Traffic {
         Said { unit, function, sides }
     }
 
+    /// Whether a telegram that has the length of a request is a response without one of its bytes: it counts as many
+    /// as are waited for, and does not ask for so much again.
+    fn lacks_a_byte(&self, port: u16, unit: Option<u8>, pdu: &[u8]) -> bool {
+        let ([function, count, _, high, low], Some(waiting)) = (pdu, self.waiting[usize::from(port)]) else {
+            return false;
+        };
+        let asked = u16::from_be_bytes([*high, *low]);
+        Some(waiting.unit) == unit
+            && waiting.function == *function
+            && waiting.length == Some(u16::from(*count) + 5)
+            && asked.wrapping_mul(2) != u16::from(*count)
+    }
+
     /// A unit has a function.
     #[inline]
     fn see(&mut self, unit: u8, function: u8) {
@@ -604,6 +625,11 @@ impl Traffic {
         self.seen[usize::from(unit) * 2 + usize::from(plain >> 6)] |= 1 << (plain & 63);
     }
 }
+
+/// So many switches are read at most.
+///
+/// Source: Modbus application protocol V1.1b3, sections 6.1 and 6.2.
+const MOST_SWITCHES: u16 = 2000;
 
 /// What a telegram says of itself.
 #[derive(Clone, Copy, Default)]

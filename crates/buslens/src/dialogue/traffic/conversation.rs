@@ -303,6 +303,30 @@ impl Port {
             });
             return;
         }
+        // And with its check it stands behind the same without it in one line: that is the copy.
+        if (entry.hint, entry.verdict) == (Hint::None, Verdict::Right)
+            && let Some(place) = self.previous
+            && let (before, body) = window.get(place)
+            && (before.line, before.verdict) == (entry.line, Verdict::NoCheck)
+            && entry.line > 0
+            && own.len() == body.len() + CHECK
+            && own.starts_with(body)
+        {
+            let (hint, direction, sides, partner) =
+                (before.hint, before.direction, before.sides, before.partner);
+            window.change(index, |entry| {
+                (entry.hint, entry.direction, entry.sides, entry.partner) = (hint, direction, sides, partner)
+            });
+            window.change(place, |entry| (entry.role, entry.partner) = (Role::Copy, NOBODY));
+            if partner != NOBODY {
+                window.change(partner as usize, |entry| entry.partner = index as u32);
+            }
+            if let Some((open, _)) = self.open.last_mut().filter(|(open, _)| *open == place) {
+                *open = index;
+            }
+            self.previous = Some(index);
+            return;
+        }
         let exchange = (protocol.exchange)(own);
         let last = self.open.last().copied();
         let awaited = match (exchange, last) {
@@ -312,6 +336,11 @@ impl Port {
         };
         let previous = self.previous;
         let repeats = || last.is_some_and(|(request, _)| previous == Some(request) && is_same(&request));
+        let in_line = entry.verdict == Verdict::Wrong
+            && entry.line > 0
+            && last.is_some_and(|(request, _)| {
+                previous == Some(request) && window.get(request).0.line == entry.line
+            });
         let hinted = match entry.hint {
             Hint::None => None,
             Hint::Says(direction) => Some(direction),
@@ -330,6 +359,8 @@ impl Port {
             // Bytes count more than a word that may stand for something else.
             ([true, false], _) if entry.verdict != Verdict::Wrong => Direction::Request,
             ([false, true], _) if entry.verdict != Verdict::Wrong => Direction::Response,
+            // What a line is called is not said of all that it holds.
+            ([_, true] | [false, false], _) if awaited && in_line => Direction::Response,
             (_, Some(hinted)) => hinted,
             ([true, false], _) => Direction::Request,
             ([false, true], _) => Direction::Response,

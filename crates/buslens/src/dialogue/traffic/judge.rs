@@ -565,7 +565,8 @@ impl Traffic {
             _ => true,
         };
         let (Some(function), Some(code)) = (asked.first(), answer.first()) else { return false };
-        if !same_unit || code & !EXCEPTION != *function || !request.sides[0] {
+        // Of a function that is not known, the length says neither.
+        if !same_unit || code & !EXCEPTION != *function || request.sides == [false, true] {
             return false;
         }
         if code & EXCEPTION != 0 {
@@ -652,6 +653,11 @@ impl Known {
         self.entries += count;
         self.read += weak.iter().filter(|weak| weak.read).count();
         self.threshold = evidence::threshold(self.read);
+        // Delimiters and lengths tell a frame of PROFIBUS, whatever its sum.
+        self.families[Family::Profibus as usize] |= weak.iter().any(|weak| {
+            let entry = &traffic.entries[weak.entry as usize];
+            weak.bits >= SAME && entry.length > 3 && entry.protocol().is(&profibus_fdl::PROTOCOL)
+        });
         for (index, entry) in (0_u32..).zip(&traffic.entries[..count]) {
             if without.contains(index) || gone.contains(index) || entry.role == Role::Discarded {
                 continue;

@@ -16,6 +16,7 @@ use crate::frame::{
     profibus_fdl,
 };
 use crate::modbus::EXCEPTION;
+use crate::walk::crc_step;
 
 /// The beginning of a telegram, of one or more pieces.
 #[derive(Clone, Debug)]
@@ -303,6 +304,8 @@ impl Traffic {
             let before = bytes.len() - 1;
             return bytes.len() > 4
                 && bytes[1] & !EXCEPTION != 0
+                // An exception has one byte behind its function.
+                && (bytes[1] & EXCEPTION == 0 || bytes.len() == 5)
                 && !(bytes[before] == 0 && is_right(&bytes[..before]));
         }
         if self.splitter.sides(pdu) != [false; 2] {
@@ -363,7 +366,7 @@ impl Traffic {
                 _ => at += 1,
             }
         }
-        if !found.is_empty() {
+        if !found.is_empty() || self.unusual(bytes, found) {
             return;
         }
         // Over TCP nothing follows the last telegram.
@@ -384,6 +387,40 @@ impl Traffic {
         if let Some(from) = (idle.saturating_sub(1)..=idle).filter(|from| *from > 0).find(rest) {
             found.push((from, bytes.len(), &modbus_rtu::PROTOCOL, Verdict::Right));
         }
+    }
+
+    /// Finds frames that are not taken one by one, since their unit or function is unusual: what is right has another
+    /// right one behind it, or nothing but a line that was not silent.
+    fn unusual(&self, bytes: &[u8], found: &mut Vec<Found>) -> bool {
+        /// The shortest of them.
+        const SHORTEST: usize = 5;
+        let [unit, function, ..] = *bytes else { return false };
+        let known = self.splitter.knows(function);
+        if matches!(function, 0 | EXCEPTION..) || (known && unit <= 247) {
+            return false;
+        }
+        let lengths = self.splitter.rtu_lengths(bytes);
+        let mut crc = u16::MAX;
+        let ends = (1..=bytes.len()).filter(|end| {
+            crc = crc_step(crc, bytes[end - 1]);
+            crc == 0 && *end >= SHORTEST && (!known || lengths.contains(&Some(*end)))
+        });
+        let ends: Vec<usize> = ends.collect();
+        let rtu = &modbus_rtu::PROTOCOL;
+        ends.into_iter().any(|end| {
+            let idle = bytes[end..].iter().take_while(|byte| matches!(byte, 0 | 0xFF)).count();
+            let from = end + idle;
+            let rest = &bytes[from..];
+            let alone = rest.is_empty() && known;
+            let again = rest.get(1) == Some(&function) && is_right(rest);
+            if alone || again {
+                found.push((0, end, rtu, Verdict::Right));
+            }
+            if again {
+                found.push((from, bytes.len(), rtu, Verdict::Right));
+            }
+            alone || again
+        })
     }
 
     /// What waits for its response once `telegram` is sent.
@@ -632,6 +669,8 @@ impl Traffic {
         let (bits, protocol) = fits
             .filter(|(bits, _)| *bits > 0)
             .reduce(|best, other| if other.0 > best.0 { other } else { best })?;
+        // Eight zeros are a parameter channel without a job, and much else.
+        let bits = if bytes.iter().all(|byte| *byte == bytes[0]) { 0 } else { bits };
         Some(Reading { protocol, verdict: Verdict::NoCheck, from: 0, bits, cut: false, awaited: false })
     }
 
@@ -665,7 +704,8 @@ impl Traffic {
                 || !reading.is_some_and(|reading| reading.awaited) && checked();
             self.entries[before].sides = [asks, !asks];
         }
-        if bits(&reading) > 8 {
+        // A write of one value looks like nothing by itself.
+        if bits(&reading) > 8 || (facts.check_named && reading.is_some()) {
             self.shapes.look_alike(facts.shape);
         }
         match reading {

@@ -186,9 +186,17 @@ impl Scan {
         self.close();
     }
 
-    /// `\x01` outside of quotes. Letters and digits right behind one are characters, as in the `\x845` that
-    /// Python prints for 84 35.
+    /// `\x01` or `\01` outside of quotes. Letters and digits right behind the former are characters, as in the
+    /// `\x845` that Python prints for 84 35.
     pub(super) fn escape(&mut self, line: &[u8], at: usize) -> usize {
+        /// So many characters without an escape are a text.
+        const LONGEST: usize = 16;
+        if let Some((byte, length)) = self.short_escape(line, at) {
+            let first = self.hex.len();
+            self.push_marked(byte, at, at + length);
+            self.join(line, at, at + length, first, marked(Style::Escaped));
+            return at + length;
+        }
         let hex = |at: usize| match line.get(at..at + 4) {
             Some([b'\\', b'x' | b'X', digits @ ..]) if digits.iter().all(u8::is_ascii_hexdigit) => {
                 Some(hex_value(digits))
@@ -199,12 +207,33 @@ impl Scan {
         let first = self.hex.len();
         self.push_marked(byte, at, at + 4);
         let mut to = at + 4;
-        while let Some(c) = line.get(to).copied().filter(u8::is_ascii_alphanumeric) {
+        let plain = |c: &u8| c.is_ascii_alphanumeric();
+        // Signs that part no bytes are characters, too, where the next escape comes right behind: `\x01%\xA3`.
+        let sign = |c: &u8| {
+            c.is_ascii_graphic()
+                && !matches!(c, b'\\' | b'"' | b'\'' | b'`' | b',' | b';' | b':' | b'|' | b'-' | b'/')
+        };
+        let behind = line[to..].iter().take(LONGEST).take_while(|c| plain(c) || sign(c)).count();
+        let glued = hex(to + behind).is_some();
+        while let Some(c) = line.get(to).copied().filter(|c| plain(c) || (glued && sign(c))) {
             self.push_marked(c, to, to + 1);
             to += 1;
         }
         self.join(line, at, to, first, marked(Style::Escaped));
         to
+    }
+
+    /// The byte of `\01`, or of the `\n` right behind such, and how long that is.
+    fn short_escape(&self, line: &[u8], at: usize) -> Option<(u8, usize)> {
+        let goes_on = self.open().is_some_and(|run| run.style == Style::Escaped && run.span.to == at);
+        let ends = |to: usize| line.get(to).is_none_or(|c| *c == b'\\' || c.is_ascii_whitespace());
+        match line.get(at + 1..)? {
+            [a, b, ..] if a.is_ascii_hexdigit() && b.is_ascii_hexdigit() && ends(at + 3) => {
+                Some((hex_value(&[*a, *b]), 3))
+            }
+            [b'n' | b'r' | b't', ..] if goes_on && ends(at + 2) => Some((character(&line[at..]).0, 2)),
+            _ => None,
+        }
     }
 
     /// A string with escapes in it is bytes, each character one: `b'\x01\x03E'`.

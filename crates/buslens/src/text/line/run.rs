@@ -2,7 +2,7 @@
 
 use super::Scan;
 use crate::field::Span;
-use crate::text::characters::{DIGITS, is_word, separator, word_of};
+use crate::text::characters::{DIGITS, HEX, is_word, separator, word, word_of};
 use crate::text::words::{Sender, Weight};
 
 /// How bytes without a mark of their own are written.
@@ -93,6 +93,11 @@ impl Run {
     /// How many numbers they are written as.
     pub fn tokens(&self) -> usize {
         self.tokens
+    }
+
+    /// Whether one of its numbers has a zero before its only digit.
+    pub fn is_padded(&self) -> bool {
+        self.padded
     }
 
     /// Whether commas stand between its numbers.
@@ -237,7 +242,12 @@ impl Scan {
             // `a 01 03`, `01 03 0`: who writes zeros before one digit writes them before each.
             let apart = between == Some(b' ') && !kind.marked && run.tokens > 0;
             let odd = apart && ((padded && run.single && run.tokens == 1) || (single && run.padded));
-            if let Some(mark) = between.filter(|_| fits && !odd) {
+            // `01 03 0C [12 bytes of data]`: the number in brackets counts what is not printed.
+            let counts = gap.ends_with(b"[") && line.get(to) == Some(&b' ') && {
+                let behind = word(line, to + 1);
+                behind.to > to + 1 && behind.all & HEX == 0
+            };
+            if let Some(mark) = between.filter(|_| fits && !odd && !counts) {
                 if run.since == 0 {
                     (run.separator, run.gap) = (0, 0);
                 } else if run.since == 1 {
