@@ -41,7 +41,7 @@ pub use words::Sender;
 use std::hash::{Hash, Hasher};
 
 use crate::field::{Facts, Span};
-use characters::is_word;
+use characters::{is_serial_number, is_word};
 use columns::Columns;
 use dump::{Dump, Words};
 use line::{Alike, Like, Run, Scan, Start, Told};
@@ -712,10 +712,12 @@ fn without_comment(line: &[u8]) -> &[u8] {
     memchr::memchr3_iter(b'/', b'#', b'-', line).find(begins).map_or(line, |at| &line[..at])
 }
 
-/// The last sign before a run, blanks and one bracket or quote aside.
+/// The last sign before a run, blanks aside: any digit is the same, since those of times and counters change.
 fn lead(line: &[u8], run: &Run) -> u8 {
-    let before = line[..run.span.from].trim_ascii_end();
-    before.last().copied().unwrap_or_default()
+    match line[..run.span.from].trim_ascii_end().last() {
+        Some(b'0'..=b'9') => b'0',
+        last => last.copied().unwrap_or_default(),
+    }
 }
 
 /// See [`Piece::pairs`].
@@ -808,7 +810,7 @@ fn facts(line: &[u8], run: &Run, scan: &Scan) -> Facts {
         marked: run.marked,
         listed: run.is_list(),
         digits: match run.span.of(line) {
-            number if run.tokens() == 1 => number[0] != b'0' && number.iter().all(u8::is_ascii_digit),
+            number if run.tokens() == 1 => is_serial_number(number),
             list => run.is_list() && !list.windows(2).any(|two| two.iter().all(u8::is_ascii_hexdigit)),
         },
         of_telegrams: scan.of_telegrams,
@@ -960,6 +962,48 @@ fn numbers(text: &[u8]) -> Written {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// What is given of the pieces of a text, but for their places in the file.
+    fn given(reader: &mut Reader, line: &str) -> Vec<String> {
+        let mut given = Vec::new();
+        reader.push(format!("{line}\n").as_bytes(), &mut |event| {
+            if let Event::Piece(piece) = event {
+                let Piece { bytes, decimal, breaks, places, pairs, time, sender, port, joins, facts, .. } = piece;
+                given.push(format!(
+                    "{bytes:?} {decimal:?} {breaks:?} {places:?} {pairs:?} {time:?} {sender:?} {port:?} {joins} \
+                     {facts:?}"
+                ));
+            }
+        });
+        given
+    }
+
+    #[test]
+    fn a_line_like_others_is_given_as_if_it_were_alone() {
+        let form = Form { numbers: Some(Numbers::Hex), ..Form::default() };
+        for [first, second, third] in [
+            ["TX: 01 03 00 C8 00", "TX: 11 03 00 C8 00 03 84", "TX: FF 03 00 C8 00 03"],
+            ["id 0103AB00C8", "id 1103000203", "id 0103000203"],
+            [
+                "09:30:05 len 5 rx 01 03 00 C8 00",
+                "09:30:06 len 5 rx 01 03 00 C8 00 03",
+                "09:30:07 len 5 rx 01 03 1F C8 00",
+            ],
+            ["len=00006 01 03 00 C8 00 03", "len=00007 01 03 00 C8 00 03", "len=00005 01 03 00 C8 00"],
+            [
+                "0x01 0x03 0x00 0xC8 0x00 (sent)",
+                "0x11 0x03 0x00 0xC8 0x00 0x07 (sent)",
+                "0x1 0x3 0x0 0xC8 0x0",
+            ],
+            ["COM8 > [01][03][00][C8][00]", "COM8 > [01][03][00][C8][00][03]", "COM9 > [01][03][00][C8][00]"],
+            ["x 01 03 00 C8 00 at 09:30:05", "x 01 03 00 C8 10 at 09:30:06", "x 01 03 00 C8 10 at 09:30:99"],
+        ] {
+            let mut reader = Reader::new(form.clone());
+            for line in [first, first, second, third] {
+                assert_eq!(given(&mut reader, line), given(&mut Reader::new(form.clone()), line), "{line}");
+            }
+        }
+    }
 
     #[test]
     fn marks_that_quote() {

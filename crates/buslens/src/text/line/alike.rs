@@ -9,7 +9,7 @@
 
 use super::{Scan, Style};
 use crate::field::{Facts, Span};
-use crate::text::characters::{DIGITS, decimal, is_bits, is_digit, separator};
+use crate::text::characters::{DIGITS, decimal, is_bits, is_digit, is_serial_number, separator};
 use crate::text::dump::has_offset;
 use crate::text::words::Sender;
 
@@ -130,6 +130,9 @@ impl Alike {
             Some(mut told) => {
                 told.facts.counted = pattern.is_counted(line, self.bytes.len());
                 let (pairs, port) = (pattern.pairs(), pattern.scan.port.as_slice());
+                if pattern.gap.is_empty() {
+                    told.facts.digits = is_serial_number(&line[pairs.from..][..2 * self.bytes.len()]);
+                }
                 Like::Told { told, bytes: &self.bytes, time, pairs, port }
             }
             None => Like::Read,
