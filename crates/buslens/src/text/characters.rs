@@ -126,6 +126,11 @@ pub fn decimal(text: &[u8]) -> Option<usize> {
     (to == text.len()).then(|| usize::try_from(value).ok()).flatten()
 }
 
+/// Whether all of a text is one decimal number that begins with no zero, as serial numbers are.
+pub fn is_serial_number(text: &[u8]) -> bool {
+    text.first() != Some(&b'0') && text.iter().all(|c| is_digit(*c))
+}
+
 /// Whether digits are the bits of a number: `00010000`, `0b00010000`.
 pub fn is_bits(text: &[u8]) -> bool {
     let marked = text.starts_with(b"0b") || text.starts_with(b"0B");

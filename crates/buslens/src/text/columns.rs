@@ -112,6 +112,10 @@ impl Columns {
         column.places.push(place);
     }
 
+    pub fn is_empty(&self) -> bool {
+        self.lines == 0
+    }
+
     /// The block ends: its columns, with the number and the place of its first line.
     pub fn end(&mut self) -> (u32, u64, Vec<Column>) {
         /// Every telegram has at least so many bytes.

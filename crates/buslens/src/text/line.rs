@@ -15,7 +15,7 @@ use super::characters::{
 use super::time;
 use super::words::{self, About, Sender, Weight};
 use crate::field::{Direction, Span};
-pub use alike::Alike;
+pub use alike::{Alike, Like, Told};
 use number::Token;
 use run::PLAIN;
 pub use run::{Numbers, Run, Style};

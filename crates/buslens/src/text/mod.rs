@@ -41,10 +41,10 @@ pub use words::Sender;
 use std::hash::{Hash, Hasher};
 
 use crate::field::{Facts, Span};
-use characters::is_word;
+use characters::{is_serial_number, is_word};
 use columns::Columns;
 use dump::{Dump, Words};
-use line::{Alike, Run, Scan, Start};
+use line::{Alike, Like, Run, Scan, Start, Told};
 use words::Weight;
 
 /// How a text is to be read.
@@ -126,6 +126,9 @@ pub struct Reader {
     columns: Columns,
     /// The breaks of the run in hand, see [`Piece::breaks`].
     breaks: Vec<usize>,
+    /// How many pieces were given of the line in hand, and what was told of the last one.
+    given: usize,
+    told: Told,
 }
 
 /// A line without bytes that says something about the next ones.
@@ -295,7 +298,38 @@ impl Reader {
             self.end_list(sink);
             return self.end_columns(sink);
         }
-        let alike = self.alike.read(line, &mut self.scan);
+        // Nothing in the lines before could say more of this one.
+        let apart = !self.long
+            && !self.form.counted
+            && self.form.marks.is_none()
+            && self.form.flow.is_none()
+            && self.header.is_none()
+            && self.list.bytes.is_empty()
+            && self.columns.is_empty();
+        let alike = !self.long
+            && match self.alike.read(line, &mut self.scan, apart) {
+                Like::None => false,
+                Like::Read => true,
+                Like::Told { told: Told { facts, sender }, bytes, time, pairs, port } => {
+                    self.scan.places.clear();
+                    self.scan.places.extend(pairs.places(bytes.len()));
+                    return sink(Event::Piece(Piece {
+                        bytes,
+                        decimal: None,
+                        breaks: &[],
+                        places: &self.scan.places,
+                        pairs: pairs.digits(),
+                        line: self.line,
+                        offset: self.offset,
+                        time: time.or(self.remembered.filter(|_| facts.bare).map(|(time, _)| time)),
+                        sender,
+                        port: (!port.is_empty()).then_some(port),
+                        joins: false,
+                        facts,
+                    }));
+                }
+            };
+        self.given = 0;
         let row = if self.long || alike { None } else { self.dump.row(line) };
         if !alike && self.dump.ends(line) {
             return;
@@ -348,6 +382,10 @@ impl Reader {
             return self.emit(line, &run, context, sink);
         }
         self.runs(line, time, marked.is_some(), sink);
+        let still = self.header.is_none() && self.columns.is_empty();
+        if apart && still && self.given == 1 && !self.told.facts.rest {
+            self.alike.tell(line, self.told);
+        }
     }
 
     /// Gives the runs of a line that can be bytes of a telegram.
@@ -411,13 +449,14 @@ impl Reader {
 
     /// Gives all bytes of a line that have a mark of their own, where words stand between them: `ADR 01H, CMD
     /// 03H, address 21H 02H`.
-    fn marked_bytes(&self, time: Option<i64>, sink: &mut dyn FnMut(Event<'_>)) {
+    fn marked_bytes(&mut self, time: Option<i64>, sink: &mut dyn FnMut(Event<'_>)) {
         let runs = || self.scan.runs.iter().filter(|run| run.marked);
         let longest = runs().map(Run::len).max().unwrap_or_default();
         let all: usize = runs().map(Run::len).sum();
         if all == longest || all < SHORTEST {
             return;
         }
+        self.given += 1;
         let bytes: Vec<u8> = runs().flat_map(|run| &self.scan.hex[run.first..run.end]).copied().collect();
         let places: Vec<Span> =
             runs().flat_map(|run| &self.scan.places[run.first..run.end]).copied().collect();
@@ -439,7 +478,8 @@ impl Reader {
 
     /// Gives a run with what is said of it.
     fn emit(&mut self, line: &[u8], run: &Run, context: Context, sink: &mut dyn FnMut(Event<'_>)) {
-        let Self { scan, header, form, breaks, .. } = self;
+        let Self { scan, header, form, breaks, told, .. } = self;
+        self.given += 1;
         let header = header.as_ref().filter(|_| context.bare || context.dumped || header_fits(scan));
         let alone = scan.near(run).iter().filter(|run| run.len() >= SHORTEST).count() <= 1;
         let after = scan.sender.filter(|(_, weight)| *weight == Weight::Strong && alone);
@@ -471,6 +511,8 @@ impl Reader {
             rest: context.rest,
             ..self::facts(line, run, scan)
         };
+        let sender = marks.or(sender).or(context.sender);
+        *told = Told { facts, sender };
         sink(Event::Piece(Piece {
             bytes,
             decimal,
@@ -483,7 +525,7 @@ impl Reader {
                 .time
                 .or(header.and_then(|header| header.time))
                 .or(self.remembered.filter(|_| context.dumped || context.bare).map(|(time, _)| time)),
-            sender: marks.or(sender).or(context.sender),
+            sender,
             port: (!port.is_empty()).then_some(port),
             joins: context.joins,
             facts,
@@ -663,10 +705,12 @@ fn without_comment(line: &[u8]) -> &[u8] {
     memchr::memchr3_iter(b'/', b'#', b'-', line).find(begins).map_or(line, |at| &line[..at])
 }
 
-/// The last sign before a run, blanks and one bracket or quote aside.
+/// The last sign before a run, blanks aside: any digit is the same, since those of times and counters change.
 fn lead(line: &[u8], run: &Run) -> u8 {
-    let before = line[..run.span.from].trim_ascii_end();
-    before.last().copied().unwrap_or_default()
+    match line[..run.span.from].trim_ascii_end().last() {
+        Some(b'0'..=b'9') => b'0',
+        last => last.copied().unwrap_or_default(),
+    }
 }
 
 /// See [`Piece::pairs`].
@@ -759,7 +803,7 @@ fn facts(line: &[u8], run: &Run, scan: &Scan) -> Facts {
         marked: run.marked,
         listed: run.is_list(),
         digits: match run.span.of(line) {
-            number if run.tokens() == 1 => number[0] != b'0' && number.iter().all(u8::is_ascii_digit),
+            number if run.tokens() == 1 => is_serial_number(number),
             list => run.is_list() && !list.windows(2).any(|two| two.iter().all(u8::is_ascii_hexdigit)),
         },
         of_telegrams: scan.of_telegrams,
@@ -911,6 +955,48 @@ fn numbers(text: &[u8]) -> Written {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// What is given of the pieces of a text, but for their places in the file.
+    fn given(reader: &mut Reader, line: &str) -> Vec<String> {
+        let mut given = Vec::new();
+        reader.push(format!("{line}\n").as_bytes(), &mut |event| {
+            if let Event::Piece(piece) = event {
+                let Piece { bytes, decimal, breaks, places, pairs, time, sender, port, joins, facts, .. } = piece;
+                given.push(format!(
+                    "{bytes:?} {decimal:?} {breaks:?} {places:?} {pairs:?} {time:?} {sender:?} {port:?} {joins} \
+                     {facts:?}"
+                ));
+            }
+        });
+        given
+    }
+
+    #[test]
+    fn a_line_like_others_is_given_as_if_it_were_alone() {
+        let form = Form { numbers: Some(Numbers::Hex), ..Form::default() };
+        for [first, second, third] in [
+            ["TX: 01 03 00 C8 00", "TX: 11 03 00 C8 00 03 84", "TX: FF 03 00 C8 00 03"],
+            ["id 0103AB00C8", "id 1103000203", "id 0103000203"],
+            [
+                "09:30:05 len 5 rx 01 03 00 C8 00",
+                "09:30:06 len 5 rx 01 03 00 C8 00 03",
+                "09:30:07 len 5 rx 01 03 1F C8 00",
+            ],
+            ["len=00006 01 03 00 C8 00 03", "len=00007 01 03 00 C8 00 03", "len=00005 01 03 00 C8 00"],
+            [
+                "0x01 0x03 0x00 0xC8 0x00 (sent)",
+                "0x11 0x03 0x00 0xC8 0x00 0x07 (sent)",
+                "0x1 0x3 0x0 0xC8 0x0",
+            ],
+            ["COM8 > [01][03][00][C8][00]", "COM8 > [01][03][00][C8][00][03]", "COM9 > [01][03][00][C8][00]"],
+            ["x 01 03 00 C8 00 at 09:30:05", "x 01 03 00 C8 10 at 09:30:06", "x 01 03 00 C8 10 at 09:30:99"],
+        ] {
+            let mut reader = Reader::new(form.clone());
+            for line in [first, first, second, third] {
+                assert_eq!(given(&mut reader, line), given(&mut Reader::new(form.clone()), line), "{line}");
+            }
+        }
+    }
 
     #[test]
     fn marks_that_quote() {

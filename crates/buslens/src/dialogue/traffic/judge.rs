@@ -668,9 +668,13 @@ impl Known {
             let own = bytes(entry, &traffic.data);
             if let (true, Some(first)) = (entry.protocol().is(&modbus_rtu::PROTOCOL), own.first_chunk())
                 && entry.verdict == Verdict::Right
-                && (self.bodies.len() < MOST_BEGINNINGS || self.bodies.contains_key(first))
             {
-                let alike = self.bodies.entry(*first).or_default();
+                let room = self.bodies.len() < MOST_BEGINNINGS;
+                let alike = match self.bodies.get_mut(first) {
+                    None if room => self.bodies.entry(*first).or_default(),
+                    None => continue,
+                    Some(alike) => alike,
+                };
                 if alike.len() < MOST && alike.iter().all(|(body, _)| body != own) {
                     alike.push((own.to_vec(), entry.sides));
                 }

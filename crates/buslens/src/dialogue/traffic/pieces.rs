@@ -104,6 +104,10 @@ impl Traffic {
             return;
         }
         latest.set(row, bytes);
+        if self.is_nothing(index, bytes, decimal, &facts) {
+            self.shapes.count(facts.shape, false);
+            return self.passed.push((row.line, row.offset));
+        }
         if let Some(foreign) = FOREIGN.iter().position(|foreign| foreign.certain && (foreign.fits)(bytes)) {
             self.foreign_protocols[foreign] += 1;
             return self.passed.push((row.line, row.offset));
@@ -141,6 +145,14 @@ impl Traffic {
             self.foreign_protocols[foreign] += 1;
         }
         self.unproven(index, bytes, decimal, breaks, row);
+    }
+
+    /// Whether a piece is one byte at the end of a line that says more, with nothing before that it could end: a
+    /// count, mostly.
+    fn is_nothing(&self, index: usize, bytes: &[u8], decimal: &[u8], facts: &Facts) -> bool {
+        let acknowledges = [bytes, decimal].contains(&[profibus_fdl::SC].as_slice());
+        let one = bytes.len() == 1 && facts.rest && !facts.bare && !acknowledges;
+        one && !self.typed && self.lanes[index].held.is_none()
     }
 
     /// Bytes that stand below each other, or between words: only what is beyond doubt counts. Several columns of

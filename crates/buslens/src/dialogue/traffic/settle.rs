@@ -1,7 +1,6 @@
 //! Settling: a block of telegrams at a time is judged, met with those before, and packed. What is settled can be
 //! shown while the rest of the log is read.
 
-use std::collections::HashSet;
 use std::fmt;
 
 use super::collect::Traffic;
@@ -110,8 +109,10 @@ impl Traffic {
         if self.passed.is_empty() {
             return;
         }
-        let lines: HashSet<u32> = block.iter().map(|entry| entry.line).collect();
-        self.passed.retain(|(line, _)| !lines.contains(line));
+        // Nearly sorted as they are.
+        let mut lines: Vec<u32> = block.iter().map(|entry| entry.line).collect();
+        lines.sort();
+        self.passed.retain(|(line, _)| lines.binary_search(line).is_err());
     }
 
     /// No telegram will be found in lines before this one.

@@ -8,9 +8,10 @@
 //! have to be as many.
 
 use super::{Scan, Style};
-use crate::field::Span;
-use crate::text::characters::{DIGITS, is_bits, is_digit, separator};
+use crate::field::{Facts, Span};
+use crate::text::characters::{DIGITS, decimal, is_bits, is_digit, is_serial_number, separator};
 use crate::text::dump::has_offset;
+use crate::text::words::Sender;
 
 /// The patterns of a text.
 #[derive(Debug, Default)]
@@ -20,6 +21,49 @@ pub struct Alike {
     patterns: Vec<Box<Pattern>>,
     /// How many patterns were learned since one was of use.
     idle: usize,
+    /// The bytes of the line in hand.
+    bytes: Vec<u8>,
+    /// The pattern of the line that was read last.
+    latest: Option<usize>,
+}
+
+/// What a line like one before says besides its bytes and its time, where that is known.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Told {
+    pub facts: Facts,
+    pub sender: Option<Sender>,
+}
+
+/// How a line is like one before.
+#[derive(Debug)]
+pub enum Like<'a> {
+    /// It is not.
+    None,
+    /// All was read of it.
+    Read,
+    /// Nothing but its bytes was read: the rest is as it was told before.
+    Told { told: Told, bytes: &'a [u8], time: Option<i64>, pairs: Pairs, port: &'a [u8] },
+}
+
+/// Where bytes stand as pairs of hex digits at equal distances: where the first one begins, how wide each is with its
+/// mark, and how far it is to the next.
+#[derive(Clone, Copy, Debug)]
+pub struct Pairs {
+    pub from: usize,
+    pub width: usize,
+    pub step: usize,
+}
+
+impl Pairs {
+    pub fn places(self, count: usize) -> impl Iterator<Item = Span> {
+        let begins = move |nth| self.from + nth * self.step;
+        (0..count).map(move |nth| Span::new(begins(nth), begins(nth) + self.width))
+    }
+
+    /// As [`Scan::pairs`] has them.
+    pub fn digits(self) -> Option<(usize, u8)> {
+        Some((self.from + self.width - 2, u8::try_from(self.step).ok()?))
+    }
 }
 
 #[derive(Debug)]
@@ -34,15 +78,17 @@ struct Pattern {
     /// What stands between two bytes.
     gap: Vec<u8>,
     /// What stands behind the last one.
-    tail: Vec<u8>,
+    tail: Head,
     /// How many characters the bytes have, where others cannot have more or less.
     length: Option<usize>,
     /// Which of the runs they are.
     run: usize,
     scan: Scan,
+    /// What was said of them, where nothing that stands around them says more.
+    told: Option<Told>,
 }
 
-/// What stands before the bytes, where some digits may be other ones.
+/// What stands before or behind the bytes, where some digits may be other ones.
 #[derive(Debug)]
 struct Head {
     /// With a [`HOLE`] for each of these.
@@ -58,15 +104,51 @@ const HOLE: u8 = 0;
 /// So many bytes are no time and no address.
 const SHORTEST: usize = 5;
 
+/// So much stands between two bytes at most.
+const WIDEST: usize = 4;
+
 impl Alike {
-    /// Reads a line, if it is like one before.
-    pub fn read(&mut self, line: &[u8], scan: &mut Scan) -> bool {
-        let Some(place) = self.patterns.iter().position(|pattern| pattern.read(line, scan)) else {
-            return false;
+    /// Reads a line, if it is like one before; with `told`, what was told of that one need not be read again.
+    #[inline]
+    pub fn read(&mut self, line: &[u8], scan: &mut Scan, told: bool) -> Like<'_> {
+        let Self { patterns, bytes, .. } = self;
+        let mut time = None;
+        let mut reads = |pattern: &Pattern| {
+            bytes.clear();
+            let compared = pattern.compare(line, scan, bytes);
+            compared.is_some_and(|found| {
+                time = found;
+                (told && pattern.told.is_some()) || pattern.take_over(line, bytes, found, scan)
+            })
         };
-        self.patterns.swap(place.saturating_sub(1), place);
-        self.idle = 0;
-        true
+        let Some(place) = patterns.iter().position(|pattern| reads(pattern)) else { return Like::None };
+        let before = place.saturating_sub(1);
+        patterns.swap(before, place);
+        (self.idle, self.latest) = (0, Some(before));
+        let pattern = &self.patterns[before];
+        match pattern.told.filter(|_| told) {
+            Some(mut told) => {
+                told.facts.counted = pattern.is_counted(line, self.bytes.len());
+                let (pairs, port) = (pattern.pairs(), pattern.scan.port.as_slice());
+                if pattern.gap.is_empty() {
+                    told.facts.digits = is_serial_number(&line[pairs.from..][..2 * self.bytes.len()]);
+                }
+                Like::Told { told, bytes: &self.bytes, time, pairs, port }
+            }
+            None => Like::Read,
+        }
+    }
+
+    /// Of the line that was read last, or learned, this was told, with nothing in the lines before it that could say
+    /// more.
+    pub fn tell(&mut self, line: &[u8], told: Told) {
+        /// As [`Scan::near`] has it.
+        const NEAR: usize = 32;
+        let Some(pattern) = self.latest.and_then(|latest| self.patterns.get_mut(latest)) else { return };
+        let table = memchr::memchr_iter(b'|', line).nth(1).is_some();
+        if !table && !pattern.shows_characters() && pattern.scan.runs.len() <= NEAR {
+            pattern.told = Some(told);
+        }
     }
 
     /// `line` was read into `scan`: others may be like it.
@@ -77,6 +159,7 @@ impl Alike {
         const USELESS: usize = 64;
         /// Longer ones are no lines of a log, and their patterns would take memory.
         const LONGEST: usize = 1 << 12;
+        self.latest = None;
         if line.len() > LONGEST {
             return;
         }
@@ -92,6 +175,7 @@ impl Alike {
         if self.patterns.len() == MOST {
             self.patterns.pop();
         }
+        self.latest = Some(self.patterns.len());
         self.patterns.push(Box::new(pattern));
     }
 }
@@ -141,8 +225,8 @@ impl Pattern {
         let (index, run) = scan.runs.iter().enumerate().max_by_key(|(_, run)| run.len())?;
         let (before, own, tail) = (&line[..run.span.from], run.span.of(line), &line[run.span.to..]);
         let (mark, gap) = match run.style {
-            Style::Separated if (1..=2).contains(&run.gap) => (0, run.gap),
-            Style::Prefixed => (2, run.gap),
+            Style::Separated if (1..=WIDEST).contains(&run.gap) => (0, run.gap),
+            Style::Prefixed if (1..=WIDEST).contains(&run.gap) => (2, run.gap),
             Style::Contiguous if run.tokens == 1 => (0, 0),
             _ => return None,
         };
@@ -158,31 +242,37 @@ impl Pattern {
             return None;
         }
         let (mark, gap) = (&own[..mark], &own[step - gap..step]);
-        let ends = tail.iter().all(|c| c.is_ascii_whitespace() || matches!(c, b']' | b')' | b'}' | b'>'));
-        let length = (!ends).then_some(own.len());
+        let plain = tail.iter().all(|c| c.is_ascii_whitespace() || matches!(c, b']' | b')' | b'}' | b'>'));
+        let words = scan.runs.len() == index + 1
+            && !tail.iter().any(|c| is_digit(*c))
+            && !shows_characters(tail, gap.len());
+        let length = (!plain && !words).then_some(own.len());
         // What could be one number with the first byte.
         let apart = match before {
             [.., a, b':' | b'/'] => !is_digit(*a),
-            [.., c] => !matches!(c, b'-' | b'.' | b'#' | b'"' | b'\''),
+            [.., c] => !matches!(c, b'-' | b'.' | b'#'),
             [] => true,
         };
         // A date may go on as a time.
-        let date =
-            scan.time_place.is_some_and(|time| time.to + 4 > run.span.from) && gap.first() != Some(&b' ');
+        let time = scan.time_place;
+        let before_bytes = |time: &Span| time.from < run.span.from;
+        let date = time.filter(before_bytes).is_some_and(|time| time.to + 4 > run.span.from)
+            && gap.first() != Some(&b' ');
         let other = scan.runs[..index].last().map(|other| &before[other.span.to..]);
         let joins = other.is_some_and(|between| separator(between).is_some());
         // Others with so many bytes may be shown as characters behind them, and a backslash makes bytes of characters.
         let others = scan.runs.iter().filter(|run| run.len() >= SHORTEST).count() > 1
             || before.iter().chain(tail).any(|c| matches!(*c, HOLE | b'\\'));
-        let late = scan.time_place.is_some_and(|time| time.to > run.span.from);
-        if !apart || late || date || joins || others || gap.first() == Some(&b'#') || has_offset(line) {
+        if !apart || date || joins || others || gap.first() == Some(&b'#') || has_offset(line) {
             return None;
         }
-        let mut head = before.to_vec();
-        let time = scan.time_place;
+        let mut text = line.to_vec();
         if let Some(time) = time {
-            head[time.from..time.to].iter_mut().filter(|c| is_digit(**c)).for_each(|c| *c = HOLE);
+            text[time.from..time.to].iter_mut().filter(|c| is_digit(**c)).for_each(|c| *c = HOLE);
         }
+        let tail = text.split_off(run.span.to);
+        let mut head = text;
+        head.truncate(run.span.from);
         let mut at = 0;
         for part in before.chunk_by(|one, next| is_digit(*one) == is_digit(*next)) {
             let number = Span::new(at, at + part.len());
@@ -193,40 +283,41 @@ impl Pattern {
             at = number.to;
         }
         let numbers = (0..run.first).filter(|at| head[scan.places[*at].from] == HOLE).collect();
-        let (mark, gap, tail) = (mark.to_vec(), gap.to_vec(), tail.to_vec());
-        let head = Head::new(head);
-        Some(Self { head, time, numbers, mark, gap, tail, length, run: index, scan: scan.clone() })
+        let (mark, gap) = (mark.to_vec(), gap.to_vec());
+        let [head, tail] = [head, tail].map(Head::new);
+        Some(Self {
+            head,
+            time,
+            numbers,
+            mark,
+            gap,
+            tail,
+            length,
+            run: index,
+            scan: scan.clone(),
+            told: None,
+        })
     }
 
-    fn read(&self, line: &[u8], scan: &mut Scan) -> bool {
+    /// Compares a line with this one: its bytes and its time, if it is like it.
+    fn compare(&self, line: &[u8], scan: &Scan, bytes: &mut Vec<u8>) -> Option<Option<i64>> {
         let Self { head, mark, gap, tail, .. } = self;
-        let around = head.text.len() + tail.len();
+        let around = head.text.len() + tail.text.len();
         if self.length.is_some_and(|length| line.len() != around + length) {
-            return false;
+            return None;
         }
-        let Some((_, bytes)) = head.split(line) else { return false };
-        let Some(own) = bytes.strip_suffix(tail.as_slice()) else { return false };
+        let (_, own) = head.split(line)?;
+        let (own, behind) = own.split_at_checked(own.len().checked_sub(tail.text.len())?)?;
+        tail.split(behind)?;
         let (step, whole) = (mark.len() + 2 + gap.len(), own.len() + gap.len());
         let count = whole / step;
         if whole % step != 0 || count < SHORTEST || (gap.is_empty() && is_value(own)) {
-            return false;
+            return None;
         }
         let time = match self.time {
-            Some(time) => match scan.time_at(line, time.from).filter(|found| found.to == time.to) {
-                Some(found) => Some(found.micros),
-                None => return false,
-            },
+            Some(time) => Some(scan.time_at(line, time.from).filter(|found| found.to == time.to)?.micros),
             None => None,
         };
-        scan.like(&self.scan);
-        let Scan { hex, decimal, places, runs, .. } = scan;
-        let run = &mut runs[self.run];
-        let (from, first, fixed) = (head.text.len(), run.first, self.length.is_some());
-        if !fixed {
-            hex.truncate(first);
-            decimal.truncate(first);
-            places.truncate(first);
-        }
         let (mut all, mut padded, mut same) = (0, false, true);
         let mut byte = |at: &[u8]| {
             let [high, low] = [DIGITS[usize::from(at[0])], DIGITS[usize::from(at[1])]];
@@ -237,43 +328,54 @@ impl Pattern {
         let (others, last) = own.split_at(own.len() - 2);
         match (gap.first(), gap.last()) {
             // The first and the last sign of what stands between tell all of it.
-            (Some(a), Some(b)) if mark.is_empty() => hex.extend(others.chunks_exact(step).map(|at| {
-                same &= (at[2] == *a) & (at[step - 1] == *b);
-                byte(at)
-            })),
-            (None, _) => hex.extend(others.chunks_exact(2).map(&mut byte)),
-            _ => hex.extend(others.chunks_exact(step).map(|at| {
+            (Some(a), Some(b)) if mark.is_empty() && gap.len() <= 2 => {
+                bytes.extend(others.chunks_exact(step).map(|at| {
+                    same &= (at[2] == *a) & (at[step - 1] == *b);
+                    byte(at)
+                }))
+            }
+            (None, _) => bytes.extend(others.chunks_exact(2).map(&mut byte)),
+            _ => bytes.extend(others.chunks_exact(step).map(|at| {
                 same &= at.starts_with(mark) && at.ends_with(gap);
                 byte(&at[mark.len()..])
             })),
         }
-        hex.push(byte(last));
-        if !same || !others.ends_with(mark) || all > 15 {
-            return false;
+        bytes.push(byte(last));
+        // What stands behind them may go on with them.
+        let run = &self.scan.runs[self.run];
+        let odd = self.length.is_some() && !gap.is_empty() && run.padded != (padded && !run.marked);
+        let like = same && (mark.is_empty() || others.ends_with(mark)) && all <= 15 && !odd;
+        like.then_some(time)
+    }
+
+    /// Takes over what was read of this line for one that is like it.
+    fn take_over(&self, line: &[u8], bytes: &[u8], time: Option<i64>, scan: &mut Scan) -> bool {
+        scan.like(&self.scan);
+        let Scan { hex, decimal, places, runs, .. } = scan;
+        let run = &mut runs[self.run];
+        let (first, pairs, end) = (run.first, self.pairs(), run.first + bytes.len());
+        match self.length {
+            Some(_) => hex[first..end].copy_from_slice(bytes),
+            None => {
+                hex.truncate(first);
+                hex.extend_from_slice(bytes);
+                places.truncate(first);
+                places.extend(pairs.places(bytes.len()));
+            }
         }
-        let hex_only = self.scan.hex_only();
-        if fixed {
-            let fresh = hex.len() - count;
-            hex.copy_within(fresh.., first);
-            hex.truncate(fresh);
-        } else {
-            let width = mark.len() + 2;
-            places.extend((0..count).map(|nth| Span::new(from + nth * step, from + nth * step + width)));
-            decimal.resize(if hex_only { 0 } else { hex.len() }, 0);
-        }
-        if !hex_only {
+        if !self.scan.hex_only() {
             // A byte with a mark is the same in a list of decimal numbers.
-            decimal[first..first + count].copy_from_slice(&hex[first..first + count]);
+            decimal.resize(hex.len(), 0);
+            decimal[first..end].copy_from_slice(bytes);
         }
-        (run.end, run.span.to) = (first + count, from + own.len());
-        if !gap.is_empty() {
-            (run.tokens, run.since, run.last) = (count, count, first + count - 1);
-            run.padded = padded && !run.marked;
+        run.end = end;
+        run.span.to = pairs.from + bytes.len() * pairs.step - self.gap.len();
+        if !self.gap.is_empty() {
+            (run.tokens, run.since, run.last) = (bytes.len(), bytes.len(), end - 1);
+            run.padded = bytes.iter().any(|byte| *byte < 0x10) && !run.marked;
         }
-        // What stands behind them may show them as characters, or go on with them.
-        let run = &scan.runs[self.run];
-        let same = run.padded == self.scan.runs[self.run].padded;
-        if fixed && (!same || scan.is_column(line, run)) {
+        // What stands behind them may show them as characters.
+        if self.length.is_some() && scan.is_column(line, &scan.runs[self.run]) {
             return false;
         }
         let Scan { hex, places, .. } = scan;
@@ -282,9 +384,33 @@ impl Pattern {
             hex[*at] = DIGITS[usize::from(digits[0])] * 16 + DIGITS[usize::from(digits[1])];
         }
         scan.time = time;
-        scan.pairs = u8::try_from(step).ok().map(|step| (from + mark.len(), step));
+        scan.pairs = pairs.digits();
         true
     }
+
+    fn pairs(&self) -> Pairs {
+        let width = self.mark.len() + 2;
+        Pairs { from: self.head.text.len(), width, step: width + self.gap.len() }
+    }
+
+    /// Whether what stands behind the bytes could show them as characters.
+    fn shows_characters(&self) -> bool {
+        self.length.is_some() && shows_characters(&self.tail.text, self.scan.runs[self.run].gap)
+    }
+
+    /// See [`Scan::is_counted`], for a line like this one with so many bytes.
+    fn is_counted(&self, line: &[u8], count: usize) -> bool {
+        let (run, own) = (self.run, self.length.is_some());
+        let others = self.scan.runs.iter().enumerate().filter(|(at, other)| *at != run && other.tokens == 1);
+        let mut counts = others.filter(|(at, _)| *at < run || own);
+        counts.any(|(_, other)| decimal(other.span.of(line)) == Some(count))
+    }
+}
+
+/// Whether what stands behind bytes, which have such a gap between them, may show them as characters.
+fn shows_characters(tail: &[u8], gap: usize) -> bool {
+    let wide = matches!(tail.get(1), Some(b' ' | b'\t' | b'|')) && gap < 2;
+    wide || tail.first() == Some(&b'|')
 }
 
 /// Whether hex digits are a word or the bits of a number, by their value.
@@ -338,7 +464,7 @@ mod tests {
         let (mut alike, mut scan) = (Alike::default(), Scan::default());
         scan.read(first.as_bytes(), Start::default(), numbers);
         alike.learn(first.as_bytes(), &scan);
-        let like = alike.read(second.as_bytes(), &mut scan);
+        let like = matches!(alike.read(second.as_bytes(), &mut scan, false), Like::Read);
         if like {
             let mut alone = Scan::default();
             alone.read(second.as_bytes(), Start::default(), numbers);
@@ -374,6 +500,11 @@ mod tests {
             ("TX 0x01 , 0x03 , 0x00 , 0xC8 , 0x00", "TX 0x11 , 0x13 , 0x10 , 0xC8 , 0x00 , 0x05"),
             ("id:12345 rx 01 03 00 C8 00", "id:99999 rx 21 03 1A C8 00"),
             ("2026-03-02    01:03:00:C8:00", "2026-03-02    11:04:05:10:20"),
+            ("TX: 01 03 00 C8 00 Modbus", "TX: 81 13 10 C8 10 12 Modbus"),
+            ("01 03 00 C8 00 at 09:30:05", "11 03 00 C8 00 at 09:30:05"),
+            ("01 03 00 C8 00 03 (sent) at 09:30:05", "01 03 10 C8 10 03 (sent) at 23:59:59"),
+            ("{\"data\":\"01 03 00 C8 00 03\"}", "{\"data\":\"FF 03 10 C8 00\"}"),
+            ("==>  [01] [03] [00] [C8] [00]", "==>  [81] [03] [1F] [C8] [00] [03]"),
             ("rx: 0x01 0x03 0x00 0xC8 0x00, len 5", "rx: 0x11 0x13 0x10 0xC8 0x00, len 5"),
         ] {
             assert!(is_like(first, second, Some(Numbers::Hex)), "{first}");
@@ -399,7 +530,7 @@ mod tests {
             ("TX: 01 03 00 C8 00 03", "TX: 01 03 00 C8 00 3"),
             ("TX: 01 03 00 C8 00 03", "TX: 01 03 00 C8 00 G3"),
             ("TX: 01 03 00 C8 00 (5)", "TX: 01 03 00 C8 00 03 (5)"),
-            ("TX: 01 03 00 C8 00 Modbus", "TX: 81 13 10 C8 10 Modbus"),
+            ("01 03 00 C8 00 03 at 09:30:05", "11 03 10 C8 00 03 at 25:30:05"),
             ("TX: 30 30 31 32 33  00223", "TX: 30 30 32 32 33  00223"),
             ("TX: 01 03 00 C8 00 03", "TX: 01 03 00 C8"),
             ("TX 0x01 0x03 0x00 0xC8 0x00", "TX 0x01 0x03 0x00 0xC8 1x00"),
@@ -419,7 +550,6 @@ mod tests {
             (r"\x01 01 03 00 C8 00", r"\x02 01 03 00 C8 00"),
             ("2026-03-02 01:03:00:C8:00", "2026-03-02 11:04:05:10:20"),
             ("2026-03-02   01:03:00:C8:00", "2026-03-02   11:04:05:10:20"),
-            ("01 03 00 C8 00 at 09:30:05", "11 03 00 C8 00 at 09:30:05"),
             ("TX 01 03 00 C8 00 RX 01 03 00 C8 00 05", "TX 01 03 00 C8 00 RX 11 13 10 C8 00 05"),
             ("x 1:12345 rx 01 03 00 C8 00", "x 1:99999 rx 01 03 00 C8 00"),
             ("192.168.1.2 rx 01 03 00 C8 00", "392.168.1.2 rx 01 03 00 C8 00"),

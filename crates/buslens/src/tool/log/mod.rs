@@ -47,7 +47,7 @@ pub use story::time_text;
 use slices::Passed;
 use sums::Sums;
 
-use std::cell::OnceCell;
+use std::cell::{Cell, OnceCell};
 use std::collections::HashMap;
 
 use super::Options;
@@ -644,6 +644,10 @@ impl Ports {
         /// More share the number of the last one.
         const MOST: usize = 1000;
         let Some(name) = name else { return self.latest };
+        let before = usize::from(self.latest).checked_sub(1).and_then(|latest| self.names.get(latest));
+        if before.is_some_and(|before| before.as_bytes() == name) {
+            return self.latest;
+        }
         if !self.numbers.contains_key(name) && self.names.len() < MOST {
             self.names.push(String::from_utf8_lossy(name).into_owned());
             self.numbers.insert(name.to_vec(), self.names.len() as u16);
@@ -708,20 +712,26 @@ fn choose(format: &Format, of_network: bool, text: &[u8], form: &Form, options: 
 /// before it.
 fn pieces(text: &[u8], form: &Form) -> Vec<(Vec<u8>, bool)> {
     const ENOUGH: usize = 300;
+    /// So much is read at a time.
+    const PART: usize = 1 << 11;
     let mut pieces: Vec<(Vec<u8>, bool)> = Vec::new();
     let mut reader = Reader::new(form.clone());
+    let full = Cell::new(false);
     let mut take = |event: Event<'_>| {
-        if let Event::Piece(piece) = event {
-            let full = pieces.len() == ENOUGH;
-            match pieces.last_mut() {
-                Some((bytes, _)) if piece.joins => bytes.extend_from_slice(piece.bytes),
-                _ if full => {}
-                _ if piece.facts.column => {}
-                _ => pieces.push((piece.bytes.to_vec(), piece.facts.colon)),
-            }
+        let Event::Piece(piece) = event else { return };
+        let last = pieces.len();
+        match pieces.last_mut() {
+            _ if full.get() => {}
+            Some((bytes, _)) if piece.joins => bytes.extend_from_slice(piece.bytes),
+            _ if last == ENOUGH => full.set(true),
+            _ if piece.facts.column => {}
+            _ => pieces.push((piece.bytes.to_vec(), piece.facts.colon)),
         }
     };
-    reader.push(text, &mut take);
+    let mut parts = text.chunks(PART);
+    while let Some(part) = parts.next().filter(|_| !full.get()) {
+        reader.push(part, &mut take);
+    }
     reader.finish(&mut take);
     // What is written as characters is told by the bytes that they stand for.
     for (bytes, colon) in &mut pieces {
