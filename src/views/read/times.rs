@@ -62,8 +62,8 @@ mod tests {
     #[test]
     fn lengths_of_time_are_short() {
         assert_eq!(duration(31_400), "31 ms");
-        assert_eq!(duration(1_250), "1.2 ms");
-        assert_eq!(duration(2_150_000), "2.1 s");
+        assert_eq!(duration(1_250), "1.3 ms");
+        assert_eq!(duration(2_150_000), "2.2 s");
         assert_eq!(delta(22_000), "+22");
         assert_eq!(delta(-1_500), "-1.5");
     }

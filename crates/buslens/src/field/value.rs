@@ -171,7 +171,7 @@ pub fn shortest(value: f64) -> String {
     float(value.to_bits(), 8)
 }
 
-/// A number with so many places behind the point, at most 9; "0.0" for what is no number.
+/// A number with so many places behind the point, at most 9, a half rounded away from 0; "0.0" for what is no number.
 ///
 /// The standard library does the same, for 20 kB in the page.
 ///
