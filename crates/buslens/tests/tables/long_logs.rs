@@ -7,6 +7,7 @@ use buslens::tool::Options;
 use buslens::tool::log::{Log, Reading};
 
 use super::assert_table;
+use super::traffic::{counts, dialog};
 
 /// So many telegrams are settled at a time.
 const PART: usize = 1 << 14;
@@ -21,31 +22,10 @@ fn told(table: &mut String, name: &str, text: &str) {
     log.finish();
     let all = log.statistics();
     let count = log.entries().len();
-    writeln!(
-        table,
-        "{name}: {count} entries, {} telegrams, {} pairs, {} unanswered, {} retries, {} unasked, {} late, {} echoes, \
-         {} copies, {} wrong, {} unchecked, {} discarded, {} lines unread",
-        all.telegrams,
-        all.pairs,
-        all.unanswered,
-        all.retries,
-        all.unasked,
-        all.late,
-        all.echoes,
-        all.copies,
-        all.check_failed,
-        all.unchecked,
-        all.bytes_discarded,
-        log.unread().len()
-    )
-    .unwrap();
+    let lines = log.unread().len();
+    writeln!(table, "{name}: {count} entries, {}, {lines} lines unread", counts(all)).unwrap();
     for it in &all.dialogs {
-        writeln!(
-            table,
-            "    port {} unit {:?} function {}: {} telegrams, {} requests, {} answered, {} unanswered, {} retries",
-            it.port, it.unit, it.function, it.telegrams, it.requests, it.answered, it.unanswered, it.retries
-        )
-        .unwrap();
+        writeln!(table, "    {}", dialog(it)).unwrap();
     }
     for index in (PART - 4..PART + 3).chain(count.max(PART + 3) - 3..count).filter(|index| *index < count) {
         let entry = log.entry(index);

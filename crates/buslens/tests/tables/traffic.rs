@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use buslens::dialogue::traffic::{Chunk, Hint, Role, Traffic, statistics};
+use buslens::dialogue::traffic::{Chunk, Dialog, Hint, Role, Statistics, Traffic, statistics};
 use buslens::field::{Direction, Facts, hex};
 use buslens::frame::Settings;
 use buslens::tool::Protocol;
@@ -114,10 +114,25 @@ fn told(table: &mut String, way: Way, protocol: &str, chunks: &str) {
     }
     let all = statistics(&traffic);
     let dialogs = all.dialogs.len();
-    writeln!(
-        table,
-        "    {} telegrams, {} pairs, {} unanswered, {} retries, {} unasked, {} late, {} echoes, {} copies, {} broadcasts, \
-         {} exceptions, {} wrong, {} unchecked, {} discarded, times {:?}",
+    writeln!(table, "    {}, times {:?}", counts(&all), all.times).unwrap();
+    for it in all.dialogs.iter().filter(|it| dialogs > 1 || it.median.is_some() || it.silent.is_some()) {
+        let silent = it.silent.map(|it| (it.from, it.to, it.count));
+        writeln!(
+            table,
+            "    {}, median {:?}, worst {:?}, silent {silent:?}",
+            dialog(it),
+            it.median,
+            it.worst
+        )
+        .unwrap();
+    }
+}
+
+/// What is counted of a conversation.
+pub fn counts(all: &Statistics) -> String {
+    format!(
+        "{} telegrams, {} pairs, {} unanswered, {} retries, {} unasked, {} late, {} echoes, {} copies, {} broadcasts, \
+         {} exceptions, {} wrong, {} unchecked, {} discarded",
         all.telegrams,
         all.pairs,
         all.unanswered,
@@ -130,31 +145,26 @@ fn told(table: &mut String, way: Way, protocol: &str, chunks: &str) {
         all.exceptions,
         all.check_failed,
         all.unchecked,
-        all.bytes_discarded,
-        all.times
+        all.bytes_discarded
     )
-    .unwrap();
-    for it in all.dialogs.iter().filter(|it| dialogs > 1 || it.median.is_some() || it.silent.is_some()) {
-        writeln!(
-            table,
-            "    port {} unit {:?} function {}: {} telegrams, {} requests, {} answered, {} unanswered, {} retries, \
-             {} exceptions, {} wrong, median {:?}, worst {:?}, silent {:?}",
-            it.port,
-            it.unit,
-            it.function,
-            it.telegrams,
-            it.requests,
-            it.answered,
-            it.unanswered,
-            it.retries,
-            it.exceptions,
-            it.check_failed,
-            it.median,
-            it.worst,
-            it.silent.map(|it| (it.from, it.to, it.count))
-        )
-        .unwrap();
-    }
+}
+
+/// What is counted of a function of a unit.
+pub fn dialog(it: &Dialog) -> String {
+    format!(
+        "port {} unit {:?} function {}: {} telegrams, {} requests, {} answered, {} unanswered, {} retries, \
+         {} exceptions, {} wrong",
+        it.port,
+        it.unit,
+        it.function,
+        it.telegrams,
+        it.requests,
+        it.answered,
+        it.unanswered,
+        it.retries,
+        it.exceptions,
+        it.check_failed
+    )
 }
 
 #[test]
