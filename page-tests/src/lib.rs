@@ -10,9 +10,10 @@ mod fields;
 mod site;
 
 use std::path::PathBuf;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
+use thirtyfour::error::WebDriverErrorInner;
 use thirtyfour::prelude::*;
 
 use browser::Driver;
@@ -33,6 +34,9 @@ pub const VIEWS: [&str; 6] = ["#/read", "#/build", "#/check", "#/devices", "#/le
 
 /// Is there once the part of the page is that stands around what is read.
 const THERE: &str = ".foot";
+
+/// How long what must come may take: much longer than on any machine that is not overloaded.
+const PATIENCE: Duration = Duration::from_secs(20);
 
 /// A page of its own in a browser of its own.
 pub struct Page {
@@ -98,7 +102,8 @@ impl Page {
 
     /// Waits until `css` finds an element with `text` in it.
     pub async fn until(&self, css: &str, text: &str) -> Result {
-        for _ in 0..200 {
+        let start = Instant::now();
+        while start.elapsed() < PATIENCE {
             if self.texts(css).await.unwrap_or_default().iter().any(|found| found.contains(text)) {
                 return Ok(());
             }
@@ -140,7 +145,13 @@ impl Page {
     pub async fn texts(&self, css: &str) -> Result<Vec<String>> {
         let mut texts = Vec::new();
         for element in self.driver.find_all(By::Css(css)).await? {
-            texts.push(element.text().await?);
+            match element.text().await {
+                // Drawn anew since it was found: what stands there now is asked for again.
+                Err(error) if matches!(error.as_inner(), WebDriverErrorInner::StaleElementReference(_)) => {
+                    return Box::pin(self.texts(css)).await;
+                }
+                text => texts.push(text?),
+            }
         }
         Ok(texts)
     }
@@ -241,7 +252,8 @@ impl Page {
 
     /// Waits until the field has this text in it.
     pub async fn until_value(&self, css: &str, text: &str) -> Result {
-        for _ in 0..200 {
+        let start = Instant::now();
+        while start.elapsed() < PATIENCE {
             if self.one(css).await?.value().await?.is_some_and(|value| value.contains(text)) {
                 return Ok(());
             }
