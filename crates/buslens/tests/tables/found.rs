@@ -280,6 +280,10 @@ const DIFFERENCES: &[&str] = &[
     "Request:\n01 03 00 C8 00 03 ~~\nResponse:\n01 03 06 00 80 42 A4 F1 DE ~~\ntx -> rx 01 03 00 C8\n41 54 2B 43 47 4D 49 0D",
     "{\"ts\":5646123456789,\"level\":\"debug\",\"msg\":\"tx\",\"hex\":\"010300000002c40b\"}\n{\"ts\":1646123456839,\"level\":\"debug\",\"msg\":\"rx\",\"hex\":\"010304000100022a32\"}\n{\"ts\":1646123457839,\"level\":\"info\",\"msg\":\"value\",\"raw\":[1,2],\"float\":9.18e-41}\n",
     "A 0000: 01\nB 0000: 02\nC 0000: 03\nA 0001: 04\nB 0001: 05\nC 0001: 06\n10 01 02 49 4C 16\nE5\n10 5B 0A 65 16\n63 03 00 C8 00 03\n63 03 06 00 80 42 A4 F1 DE\n11 22 33 44\nhello",
+    " 8 1, 3, 0, 20, 0x05, 6",
+    "sc e5\n09:30:05 discarded sc e5\n09:30:05 discarded sc e5",
+    "rx 01 tx 01 03 00 C8\n20 20 41 42    AB\n\\x01\\x03\\x00\\xC8\\x00\\x03\\x845",
+    "10 20 30 40 50 6A\n63 03 00 C8 00 03\n11 22 33 44\n63 03 06 00 80 42 A4 F1 DE\n55 66 77\n89 99 AA }",
 ];
 
 /// Puts the check of the bytes before it where `~~` stands.

@@ -238,6 +238,7 @@ fn streams_and_connections() {
                 "01 05 00 C8 FF 00 0D C4 01 05 00 C8 00 00 4C 34",
                 "00 05 00 C8 FF 00 0C 15 ASKS ANSWERS",
                 "ANSWERS ASKS",
+                "ASKS FFx20000 ASKS",
             ][..],
         ),
         (
@@ -348,6 +349,8 @@ fn streams_and_connections() {
                 "0: 01 03 00 / + 0.4: C8 00 / + 1.9: 03 84 / + 2: 35",
                 "> 0: 01 03 00 C8 / < + 0.1: 00 03 84 35",
                 "01 03 06 00 80 42 A4 F1 DE B0 F8 / 01 03 06 00 80 42 A4 F1 DE B0 F8 55",
+                "< + 0.1: 00 03 84 35 / > 0: 01 03 00 C8 / < 0: ASKS / > 0.02: ANSWERS / < 1: ASKS / ! > 1.02: ANSWERS",
+                "< 3: 01 05 00 C8 FF 00 0D C4 / > 0: ASKS / < 1: ASKS / < 2: ASKS / > 0: ASKS",
                 "< 0.02: ANSWERS / 01 03 00 C8 00 03 00x1018 / > 1: ASKS / < 1.2: 01 83 02 C0 F1",
                 "0: ASKS / 0: ASKS / 1: 02 03 05 00 08 00 00 12 34",
                 "p0 ! 0: ASKS / ? 1: ANSWERS / 02x300 / > 0: ASKS / < 1: ASKS / < 2: ASKS / < 3: 01 05 00 C8 FF 00 0D C4",
