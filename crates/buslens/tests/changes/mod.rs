@@ -41,6 +41,7 @@ fn is_kept(word: &str) -> bool {
         "payload",
         "pdu",
         "query",
+        "question",
         "raw",
         "read",
         "reading",
