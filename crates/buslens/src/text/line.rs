@@ -263,8 +263,9 @@ impl Scan {
                 self.forget(first);
                 // What makes a number a byte: `0x84.toByte()`, `0x84_u8`, `17 hex`.
                 let gap = |run: &Run| &line[run.span.to..at];
+                let ends = matches!(line.get(to), Some(b'(' | b',' | b')' | b']' | b'}' | b';'));
                 let of_number = |run: &Run| match gap(run) {
-                    b"." | b"_" => run.marked,
+                    b"." | b"_" => run.marked && ends,
                     b" " => line[at..to].eq_ignore_ascii_case(b"hex"),
                     _ => false,
                 };

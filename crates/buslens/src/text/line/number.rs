@@ -300,7 +300,7 @@ impl Scan {
             let (mut byte, mut length) = character(rest);
             let mut decimal = byte;
             if let Some((number, digits)) = decimal_escape(rest) {
-                (fits, decimal) = (fits && number < 256, number as u8);
+                (fits, decimal) = (fits && number < 256 && digits == length, number as u8);
                 if decimal_only {
                     (byte, length) = (decimal, digits);
                 }
