@@ -129,6 +129,8 @@ pub struct Reader {
     /// How many pieces were given of the line in hand, and what was told of the last one.
     given: usize,
     told: Told,
+    /// How the numbers of its lines are written, where that is counted.
+    written: Option<Written>,
 }
 
 /// A line without bytes that says something about the next ones.
@@ -300,6 +302,7 @@ impl Reader {
         }
         // Nothing in the lines before could say more of this one.
         let apart = !self.long
+            && self.written.is_none()
             && !self.form.counted
             && self.form.marks.is_none()
             && self.form.flow.is_none()
@@ -345,6 +348,9 @@ impl Reader {
             if row.is_none() {
                 self.alike.learn(line, &self.scan);
             }
+        }
+        if let Some(written) = &mut self.written {
+            written.count(&self.scan);
         }
         if self.form.counted {
             self.scan.drop_counts();
@@ -859,14 +865,15 @@ pub fn recognise(text: &[u8]) -> Recognised {
     let text = &text[..text.len().min(ENOUGH)];
     let mut shown = [0; LAYOUTS.len()];
     for line in text.split(|c| matches!(c, b'\n' | b'\r')) {
-        if let Some(index) = LAYOUTS.iter().position(|layout| layout.shows(line)) {
-            shown[index] += 1;
+        // Of several, the first one counts.
+        if let Some(count) = shown.get_mut(Layout::shown(line).trailing_zeros() as usize) {
+            *count += 1;
         }
     }
     let best = LAYOUTS.iter().zip(shown).filter(|(_, count)| *count > 0).max_by_key(|(_, count)| *count);
     let layout = best.map(|(layout, _)| layout);
     let (mut with_bytes, mut telling, mut dumped) = (0, 0, 0);
-    let mut reader = Reader::default();
+    let mut reader = Reader { written: Some(Written::default()), ..Reader::default() };
     let mut count = |event: Event<'_>| {
         if let Event::Piece(piece) = event {
             with_bytes += 1;
@@ -876,10 +883,10 @@ pub fn recognise(text: &[u8]) -> Recognised {
     };
     reader.push(text, &mut count);
     reader.finish(&mut count);
-    let Written { numbers, style, padded } = numbers(text);
+    let written = reader.written.unwrap_or_default();
     // The name of a program may stand in a text that was written by another one.
-    let numbers = layout.and_then(|layout| layout.numbers).filter(|_| !padded).or(numbers);
-    Recognised { layout, numbers, style, with_bytes, telling, dumped }
+    let numbers = layout.and_then(|layout| layout.numbers).filter(|_| !written.padded).or(written.numbers());
+    Recognised { layout, numbers, style: written.style(), with_bytes, telling, dumped }
 }
 
 /// Whether each line of a text is quoted: `> 01 03`.
@@ -922,41 +929,45 @@ pub fn counted(text: &[u8], numbers: Option<Numbers>) -> bool {
 }
 
 /// How the numbers of a text are written.
+#[derive(Debug, Default)]
 struct Written {
-    /// All of them, if its lines leave no doubt.
-    numbers: Option<Numbers>,
-    /// Most bytes.
-    style: Option<Style>,
+    /// Lines whose bytes can only be hex, and only decimal.
+    hex: usize,
+    decimal: usize,
     /// There are some with a zero before one digit, which is not how decimal numbers are written.
     padded: bool,
+    /// How many bytes are written in each style.
+    styles: [usize; Style::ALL.len()],
 }
 
-/// How the numbers of a text are written.
-fn numbers(text: &[u8]) -> Written {
-    /// So many lines leave no doubt.
-    const SURE: usize = 8;
-    let mut scan = Scan::default();
-    let (mut hex, mut decimal, mut padded) = (0, 0, false);
-    let mut styles = [0; Style::ALL.len()];
-    for line in text.split(|c| matches!(c, b'\n' | b'\r')) {
-        scan.read(line, Start::default(), None);
-        if let Some(run) = scan.runs.iter().max_by_key(|run| run.len()) {
-            styles[run.style as usize] += run.len();
-            if run.len() >= SHORTEST {
-                hex += usize::from(run.hex && !run.decimal);
-                decimal += usize::from(!run.hex && run.decimal);
-                padded |= run.is_padded();
-            }
+impl Written {
+    /// Counts what stands in a line.
+    fn count(&mut self, scan: &Scan) {
+        let Some(run) = scan.runs.iter().max_by_key(|run| run.len()) else { return };
+        self.styles[run.style as usize] += run.len();
+        if run.len() >= SHORTEST {
+            self.hex += usize::from(run.hex && !run.decimal);
+            self.decimal += usize::from(!run.hex && run.decimal);
+            self.padded |= run.is_padded();
         }
     }
-    let style =
-        Style::ALL.into_iter().zip(styles).filter(|(_, count)| *count > 0).max_by_key(|(_, count)| *count);
-    let numbers = match (hex, decimal) {
-        (SURE.., 0) => Some(Numbers::Hex),
-        (0, SURE..) => Some(Numbers::Decimal),
-        _ => None,
-    };
-    Written { numbers, style: style.map(|(style, _)| style), padded }
+
+    /// How all numbers are written, if the lines leave no doubt.
+    fn numbers(&self) -> Option<Numbers> {
+        /// So many lines leave none.
+        const SURE: usize = 8;
+        match (self.hex, self.decimal) {
+            (SURE.., 0) => Some(Numbers::Hex),
+            (0, SURE..) => Some(Numbers::Decimal),
+            _ => None,
+        }
+    }
+
+    /// How most bytes are written.
+    fn style(&self) -> Option<Style> {
+        let styles = Style::ALL.into_iter().zip(self.styles).filter(|(_, count)| *count > 0);
+        styles.max_by_key(|(_, count)| *count).map(|(style, _)| style)
+    }
 }
 
 #[cfg(test)]

@@ -245,11 +245,14 @@ const CONVERSATIONS: &[&str] = &[
     "52 00 23 00 00 05 00 00\n52 00 23 00 00 05 00 00\n12 00 23 01 00 06 00 00\n12 00 23 01 00 06 00 00",
     "41 00 23 00 00 00 00 00\nC1 00 23 00 06 03 00 00",
     "x 01 03 00 C8 00 03 ~~ y\n| 01 | 01 |\n| 03 | 03 |\n| 00 | 00 |\n| C8 | C9 |\n| 00 | 00 |\n| 03 | 03 |\n| 84 | D5 |\n| 35 | F5 |",
+    "a 01\nb 03\nc 05\nd 06\ne B3\nf 4A",
+    "ADR 01H, CMD 03H, CRC 40H 21H",
+    "ADR 01H, CMD 03H, number 05H 06H, CRC B3H 4AH",
     "| 01 | 01 |\n| 03 | 03 |\n| 00 | 06 |\n| C8 | 00 |\n| 00 | 80 |\n| 03 | 42 |\n| z | A4 |\n| z | F1 |\n| z | DE |",
 ];
 
 /// Puts the check of the bytes before it where `~~` stands.
-fn checked(text: &str) -> String {
+pub fn checked(text: &str) -> String {
     let mut whole = String::new();
     for (index, part) in text.split("~~").enumerate() {
         if index > 0 {
@@ -285,6 +288,15 @@ fn what_is_found_in_texts() {
         writeln!(table, "{}", text.escape_debug()).unwrap();
         found(&mut table, text.as_bytes());
     }
+    // What is too long is no telegram; alone in its line it may be more.
+    for (before, behind) in [("", ""), ("so ", " it")] {
+        for length in [300, 301, 599, 600] {
+            let header = hex(&(length as u16 - 5).to_be_bytes());
+            let text = format!("{before}00 01 00 00 {header} 01 03{}{behind}", " 5A".repeat(length - 8));
+            writeln!(table, "{before}{length} bytes{behind}").unwrap();
+            found(&mut table, text.as_bytes());
+        }
+    }
     // Of telegrams that begin alike so many are known again.
     for count in [16, 17] {
         let all: String = (0..count).map(|n| format!("tx: 11 42 01 02 {n:02X} ~~\n")).collect();
@@ -316,12 +328,16 @@ fn found(table: &mut String, text: &[u8]) {
         Err(why) => return writeln!(table, "    {why:?}").unwrap(),
     };
     for entry in log.entries() {
+        let own = log.bytes(&text, &entry);
+        let bytes = match own.len() {
+            0..=64 => hex(&own),
+            length => format!("{} … ({length} bytes)", hex(&own[..8])),
+        };
         let mut said = format!(
-            "{} at {}+{}: {} | {} {:?} {:?}",
+            "{} at {}+{}: {bytes} | {} {:?} {:?}",
             entry.line,
             entry.offset,
             entry.skip,
-            hex(&log.bytes(&text, &entry)),
             entry.protocol().key,
             entry.verdict,
             entry.direction
