@@ -41,7 +41,7 @@ pub use pictures::{Bucket, Held, Point, Timeline};
 #[cfg(feature = "captures")]
 pub use redact::{Hidden, Kind, Redacted, Replaced};
 pub use seen::{Seen, seen};
-pub use slices::{Division, join};
+pub use slices::{Division, Piece, Slice};
 pub use story::time_text;
 
 use slices::Passed;
@@ -124,8 +124,6 @@ pub struct Log {
     lines: u32,
     taken: u64,
     full: bool,
-    /// All of it was read.
-    finished: bool,
     /// Of a log that can be read in slices.
     passed: Option<Passed>,
     /// A file in UTF-16, as it would be in UTF-8.
@@ -303,7 +301,6 @@ impl Log {
             lines: 0,
             taken: 0,
             full: false,
-            finished: false,
             passed: None,
             transcoded,
             fault: None,
@@ -409,6 +406,12 @@ impl Log {
 
     /// The file ends, or is not read any further.
     pub fn finish(&mut self) {
+        self.end();
+        self.look();
+    }
+
+    /// The same, but nothing is counted.
+    fn end(&mut self) {
         let Self { input, traffic, ports, transcoded, .. } = self;
         let mut take = |event: Event<'_>| _ = self::take(event, traffic, ports);
         if let Way::Utf16 { reader, encoding, odd } = input {
@@ -439,8 +442,6 @@ impl Log {
             }
         }
         self.traffic.finish();
-        self.finished = true;
-        self.look();
     }
 
     /// How many directions of connections carry no telegrams.
