@@ -230,6 +230,10 @@ pub const SMALL: u64 = 32 << 20;
 /// just enough left to show what was read.
 const SPARE: usize = 48 << 20;
 
+fn has_room() -> bool {
+    Vec::<u8>::new().try_reserve_exact(SPARE).is_ok()
+}
+
 impl Log {
     /// Begins to read a file of `size` bytes by its beginning, which is to be pushed all the same.
     pub fn open(beginning: &[u8], size: u64, reading: &Reading, options: Options) -> Result<Self, Refusal> {
@@ -347,7 +351,7 @@ impl Log {
     /// Takes a part with no mark in it.
     fn take_part(&mut self, part: &[u8]) -> bool {
         let Self { input, traffic, ports, full, taken, transcoded, .. } = self;
-        let mut room = *taken <= SMALL || Vec::<u8>::new().try_reserve_exact(SPARE).is_ok();
+        let mut room = *taken <= SMALL || has_room();
         let mut take = |event: Event<'_>| room &= self::take(event, traffic, ports);
         match input {
             Way::Text(reader) => reader.push(part, &mut take),

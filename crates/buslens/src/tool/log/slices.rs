@@ -13,7 +13,7 @@ use std::ops::Range;
 #[cfg(feature = "json")]
 use serde::{Deserialize, Serialize};
 
-use super::{Log, Way};
+use super::{Log, Way, has_room};
 use crate::dialogue::traffic::{Found, Place, Sums};
 
 /// Where a log has its marks.
@@ -176,8 +176,11 @@ pub struct Slice {
 }
 
 impl Slice {
-    /// Takes the next piece; `false` if it is none of this program.
+    /// Takes the next piece; `false` if there is no memory for it, or if it is none of this program.
     pub fn take(&mut self, piece: Piece) -> bool {
+        if !has_room() {
+            return false;
+        }
         self.marks.extend(piece.marks);
         self.end = piece.end;
         self.found.take(&piece.words).is_some()
