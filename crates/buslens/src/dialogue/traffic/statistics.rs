@@ -353,13 +353,17 @@ fn timings(traffic: &Traffic) -> Vec<Timing> {
     let entries = traffic.entries();
     let mut places = entries.counts().places.clone();
     let mut all = vec![Timing::default(); entries.counts().tallies.len()];
-    for entry in entries {
+    // Most requests stand just before their answers: their times need not be looked up.
+    let mut recent = [None; 8];
+    for (index, entry) in entries.iter().enumerate() {
+        recent[index % recent.len()] = entry.time();
         if entry.unanswered() {
             all[places.of(&entry)].silent.extend(entry.time());
         }
-        if let Some(request) = entry.partner().filter(|_| entry.answers())
-            && let Some(latency) = latency(entry.time(), entries.time(request))
-        {
+        let Some(request) = entry.partner().filter(|_| entry.answers()) else { continue };
+        let is_recent = (index.saturating_sub(recent.len() - 1)..index).contains(&request);
+        let asked = if is_recent { recent[request % recent.len()] } else { entries.time(request) };
+        if let Some(latency) = latency(entry.time(), asked) {
             all[places.of(&entry)].latencies.push(latency);
         }
     }

@@ -99,19 +99,22 @@ impl Log {
         self.passed.as_ref()?.settled
     }
 
-    /// The slices of a file of so many bytes, at most `most`, each of at least `least` bytes. The first one begins
-    /// where the log is now. There is only one before [`divisible_from`](Self::divisible_from) is known.
+    /// The slices of a file of so many bytes, at most `most`, each of about `least` bytes at least. The first one begins
+    /// where the log is now, and is longer: whoever reads another one reads the beginning, too. There is only one before
+    /// [`divisible_from`](Self::divisible_from) is known.
     pub fn slices(&self, size: u64, most: usize, least: u64) -> Vec<Range<u64>> {
         let left = size.saturating_sub(self.taken);
         let most = if self.divisible_from().is_some() { most as u64 } else { 1 };
         let count = most.min(left / least.max(1)).max(1);
         let step = self.passed.as_ref().map_or(1, |passed| passed.division.step);
+        let again = self.taken + step;
+        let share = (left + (count - 1) * again) / count;
         let cut = |n: u64| match n {
             0 => self.taken,
             n if n == count => size,
-            n => ((u128::from(left) * u128::from(n) / u128::from(count)) as u64 + self.taken)
-                .next_multiple_of(step)
-                .min(size),
+            n => {
+                (self.taken + share + (n - 1) * share.saturating_sub(again)).next_multiple_of(step).min(size)
+            }
         };
         (0..count).map(|n| cut(n)..cut(n + 1)).filter(|slice| !slice.is_empty()).collect()
     }
