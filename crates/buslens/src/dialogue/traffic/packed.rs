@@ -324,8 +324,25 @@ fn unpack<const N: usize>(chunk: &[u64], rows: &mut Vec<[u64; N]>) {
     rows.clear();
     rows.resize(CHUNK, heads.map(|head| head.base));
     for (column, head) in heads.iter().enumerate().filter(|(_, head)| head.width > 0) {
-        for (row, numbers) in rows.iter_mut().enumerate() {
-            numbers[column] = head.number(chunk, row);
+        let (list, words) = chunk[head.from..].split_at(head.listed);
+        let mut words = words.iter();
+        let mask = mask(head.width);
+        // What is left of the last word, and of how many bits that is.
+        let (mut word, mut left) = (0, 0);
+        for numbers in rows.iter_mut() {
+            let bits;
+            if left >= head.width {
+                bits = word & mask;
+                word >>= head.width;
+                left -= head.width;
+            } else {
+                let next = words.next().copied().unwrap_or_default();
+                bits = (word | next << left) & mask;
+                // A shift by all bits leaves nothing.
+                word = next.checked_shr(head.width - left).unwrap_or_default();
+                left += u64::BITS - head.width;
+            }
+            numbers[column] = if list.is_empty() { head.base + bits } else { list[bits as usize] };
         }
     }
 }
