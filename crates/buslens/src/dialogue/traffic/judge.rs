@@ -182,7 +182,7 @@ impl Traffic {
         // Who types telegrams types few lines that are none.
         let read = count - weak.iter().filter(|weak| !weak.read || weak.facts.slips).count();
         let typed = self.typed && (count <= FEW || read * 2 >= count);
-        if typed && count == self.entries.len() && self.settled.is_empty() {
+        if typed && count == self.entries.len() && self.settled.is_empty() && self.context.is_none() {
             self.choose_typed(&mut weak);
         }
         self.settle_pdus(&weak, &gone);
