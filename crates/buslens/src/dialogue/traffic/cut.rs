@@ -392,6 +392,7 @@ mod tests {
             pauses: 300 + 3 * by,
             line: 400 + 4 * by as u32,
             days: 500 + 5 * by as i64,
+            times: Some((by as i64, 2 * by as i64)),
             foreign_protocols: [600 + 6 * by as u32; FOREIGN.len()],
             open: vec![by],
             state: by as u64,
@@ -401,7 +402,8 @@ mod tests {
     #[test]
     fn a_place_in_the_numbers_of_another_reader() {
         // From 10 to 30 of the other one it is as far as from 50 to 70 of the own.
-        assert_eq!(place(50).moved(&place(10), &place(30)), Place { open: vec![30], state: 30, ..place(70) });
+        let moved = place(50).moved(&place(10), &place(30));
+        assert_eq!(moved, Place { open: vec![30], times: Some((30, 60)), state: 30, ..place(70) });
         assert_eq!(place(50).lines_behind(&place(10), 1000), 1160);
     }
 }
