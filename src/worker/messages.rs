@@ -1,6 +1,7 @@
 //! What the page asks of whoever reads a log, and what it is told: plain data.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
@@ -8,7 +9,7 @@ use buslens::field::{Direction, Span};
 use buslens::tool::digest::Digest;
 use buslens::tool::link::{keep_settings, kept_settings};
 use buslens::tool::log::{
-    Excerpt, Filter, Held, Hidden, Input, Lanes, Marks, Numbers, Overview, Place, Reading, Redacted,
+    Excerpt, Filter, Held, Hidden, Input, Lanes, Marks, Numbers, Overview, Piece, Place, Reading, Redacted,
     Replaced, Row, Seen,
 };
 use buslens::tool::{Options, Profile, Proposal, Protocol};
@@ -93,10 +94,13 @@ impl Marked {
     }
 }
 
-/// What the page asks. The file of `Open` comes beside it.
+/// What the page asks. The file of `Open` and `Read` comes beside it.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Request {
-    Open(How),
+    /// It may be read by so many workers at once.
+    Open(How, usize),
+    /// A slice is read for another worker.
+    Read(Share),
     /// What is read so far is enough.
     Stop,
     /// The devices are others, or set up in another way.
@@ -127,6 +131,15 @@ pub enum Request {
         kind: Export,
         notes: BTreeMap<usize, String>,
     },
+}
+
+/// What a worker reads for another one.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Share {
+    pub how: How,
+    /// So much of the file is its beginning.
+    pub beginning: u64,
+    pub slice: Range<u64>,
 }
 
 /// Which telegrams the list has.
@@ -199,7 +212,7 @@ impl Export {
 }
 
 /// What the page is told.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize, Deserialize)]
 pub enum Answer {
     /// The worker can hear.
     Hello,
@@ -245,6 +258,8 @@ pub enum Answer {
     PassedOn(Passed),
     /// A file comes beside it.
     Exported(Export),
+    /// What was found in a slice since the last one; most of it comes beside it.
+    Found(Box<Piece>),
 }
 
 impl Passed {

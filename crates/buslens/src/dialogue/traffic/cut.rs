@@ -9,11 +9,17 @@
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
+#[cfg(feature = "json")]
+use serde::{Deserialize, Serialize};
+
 use super::collect::{Latest, Traffic};
-use super::entries::Shift;
+use super::entries::{Entries, Shift};
 use super::entry::{Entry, NO_TIME, NOBODY, Written};
 use super::judge::{Known, Shapes};
 use super::lane::{Carries, Lane, Row};
+use super::packed::Words;
+use super::settle::Lines;
+use super::statistics::{Counts, Span, spanned};
 use crate::dialogue::foreign::{FOREIGN, FT12};
 
 /// What the beginning of a log tells of all of it.
@@ -32,6 +38,7 @@ pub(super) struct Context {
 
 /// A place between two telegrams, in the numbers of one reader.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "json", derive(Serialize, Deserialize))]
 pub struct Place {
     /// How many telegrams, lines without one, and pauses are settled before it.
     telegrams: usize,
@@ -43,8 +50,42 @@ pub struct Place {
     foreign_protocols: [u32; FOREIGN.len()],
     /// The telegrams before it that those behind it may have to do with: how far before it they are.
     open: Vec<usize>,
+    /// The first and the last time since the mark before.
+    times: Option<Span>,
     /// Two readers are alike where this is the same.
-    pub state: u64,
+    state: u64,
+}
+
+/// What a reader found in its slice, as it handed it over.
+#[derive(Debug, Default)]
+pub struct Found {
+    settled: Entries,
+    lines: Lines,
+}
+
+/// What a reader hands over at the end of its slice, beside telegrams and lines.
+#[derive(Debug, Default)]
+#[cfg_attr(feature = "json", derive(Serialize, Deserialize))]
+pub struct Sums {
+    counts: Counts,
+    pauses: Vec<(u32, u32)>,
+    foreign_protocols: [u32; FOREIGN.len()],
+    dated: bool,
+}
+
+impl Found {
+    /// Takes what a reader [handed over](Traffic::hand_over); `None` if that is cut.
+    pub fn take(&mut self, mut words: &[u64]) -> Option<()> {
+        self.settled.take(&mut words)?;
+        self.lines.take(&mut words)
+    }
+}
+
+impl Sums {
+    /// Whether some time has a date.
+    pub fn is_dated(&self) -> bool {
+        self.dated
+    }
 }
 
 impl Traffic {
@@ -104,6 +145,11 @@ impl Traffic {
         self.meeting.fall_silent(port);
     }
 
+    /// Leaves what the beginning has: another reader has it.
+    pub fn leave_beginning(&mut self) {
+        (self.settled, self.lines, self.pauses) = Default::default();
+    }
+
     /// Goes on elsewhere in the file, of which nothing is known but what the beginning told.
     pub fn jump(&mut self) {
         (self.entries, self.data) = (Vec::new(), Vec::new());
@@ -127,8 +173,9 @@ impl Traffic {
     }
 
     /// Where the reader is, at a mark behind so many lines; `text` is the state of what reads the text.
-    pub fn place(&self, line: u32, mut text: impl Hasher) -> Place {
+    pub fn place(&mut self, line: u32, mut text: impl Hasher) -> Place {
         self.hash_state(line, &mut text);
+        let times = self.settled.counts_mut().pass_mark();
         Place {
             telegrams: self.settled.len(),
             lines: self.lines.len(),
@@ -137,8 +184,36 @@ impl Traffic {
             days: self.days,
             foreign_protocols: self.foreign_protocols,
             open: self.meeting.open(self.settled.len()),
+            times,
             state: text.finish(),
         }
+    }
+
+    /// Hands over what is settled for good, as the latest mark is this one; all of it without one.
+    pub fn hand_over(&mut self, mark: Option<&Place>) -> Words {
+        let mut words = Words::new();
+        let (telegrams, lines) = mark.map_or((usize::MAX, usize::MAX), |mark| {
+            let open = mark.open.iter().max().unwrap_or(&0);
+            (mark.telegrams - open, mark.lines)
+        });
+        self.settled.hand_over(telegrams, &mut words);
+        self.lines.hand_over(lines, &mut words);
+        words
+    }
+
+    /// What there is beside that at the end of the slice.
+    pub fn into_sums(mut self) -> Sums {
+        Sums {
+            counts: std::mem::take(self.settled.counts_mut()),
+            pauses: self.pauses,
+            foreign_protocols: self.foreign_protocols,
+            dated: self.dated,
+        }
+    }
+
+    /// Whether some time has a date.
+    pub fn is_dated(&self) -> bool {
+        self.dated
     }
 
     /// All that what comes next hangs on, apart from the beginning of the log; lines, times of day and telegrams are
@@ -172,16 +247,12 @@ impl Traffic {
         self.meeting.hash_state(self.settled.len(), line, self.days, hasher);
     }
 
-    /// Whether all that `other` finds behind `there` is found by this one behind `here`, too.
-    pub fn is_alike(&self, here: &Place, other: &Self, there: &Place) -> bool {
-        // Days are counted for times of day only.
-        here.state == there.state && (here.days == there.days || !(self.dated || other.dated))
-    }
-
-    /// Takes over what `other` settled from the place `from` on, up to `to`, where it ends, or to the end of the log.
-    /// At `from` it was as this one is `here`, which is the end of what this one has: what it still had in hand, the
-    /// other one has.
-    pub fn adopt(&mut self, here: &Place, other: &mut Self, from: &Place, to: Option<&Place>) {
+    /// Takes over what another reader found from the first of these marks on, where it was as this one is at `here`,
+    /// which is the end of what this one has: what it still had in hand, the other one has.
+    pub fn adopt(&mut self, here: &Place, found: Found, sums: Sums, marks: &[(u64, Place)]) {
+        let [(_, from), behind @ ..] = marks else { return };
+        let Found { settled, lines } = found;
+        let Sums { counts, pauses, foreign_protocols, dated } = sums;
         let base = here.telegrams;
         debug_assert_eq!(base, self.settled.len(), "it has more than it had at the mark");
         let moved = |index: u32| index.wrapping_sub(from.telegrams as u32).wrapping_add(base as u32);
@@ -189,33 +260,38 @@ impl Traffic {
         // What those behind the place told of those before it.
         for distance in &from.open {
             let (own, others) = (base - distance, from.telegrams - distance);
-            if let (Some(own_entry), Some(entry)) = (self.settled.get(own), other.settled.get(others)) {
+            if let (Some(own_entry), Some(entry)) = (self.settled.get(own), settled.get(others)) {
                 let Entry { partner, direction, role, sides, .. } = entry;
                 let partner = if partner == NOBODY { NOBODY } else { moved(partner) };
                 self.settled.set(own, &Entry { partner, direction, role, sides, ..own_entry });
             }
         }
-        let settled = std::mem::take(&mut other.settled);
-        debug_assert_eq!(settled.len(), to.map_or(settled.len(), |to| to.telegrams), "it ends there");
-        self.settled.join(settled, from.telegrams, shift);
-        let lines = to.map_or(other.lines.len(), |to| to.lines) - from.lines;
-        for (line, offset) in other.lines.iter().skip(from.lines).take(lines) {
+        let times = behind.iter().map(|(_, place)| place.times).fold(counts.latest_times(), spanned);
+        self.settled.join(settled, &counts, from.telegrams, shift);
+        let times = times.map(|(first, last)| (first + shift.days, last + shift.days));
+        self.settled.counts_mut().add_times(times);
+        for (line, offset) in lines.iter().skip(from.lines) {
             self.lines.push((line.wrapping_add(shift.lines), offset));
         }
-        let pauses = to.map_or(other.pauses.len(), |to| to.pauses);
-        self.pauses
-            .extend(other.pauses[from.pauses..pauses].iter().map(|(index, pause)| (moved(*index), *pause)));
-        let foreign = to.map_or(&other.foreign_protocols, |to| &to.foreign_protocols);
+        let pauses = pauses.iter().skip(from.pauses);
+        self.pauses.extend(pauses.map(|(index, pause)| (moved(*index), *pause)));
         for (place, count) in self.foreign_protocols.iter_mut().enumerate() {
-            *count = here.foreign_protocols[place] + foreign[place] - from.foreign_protocols[place];
+            *count = here.foreign_protocols[place] + foreign_protocols[place] - from.foreign_protocols[place];
         }
         self.room = (NOBODY as usize).saturating_sub(self.settled.len());
-        self.dated |= other.dated;
+        self.dated |= dated;
         self.jump();
     }
 }
 
 impl Place {
+    /// Whether all that another reader finds behind `there` is found by this one behind this place, too; `dated` says
+    /// whether some time has a date.
+    pub fn is_alike(&self, there: &Self, dated: bool) -> bool {
+        // Days are counted for times of day only.
+        self.state == there.state && (self.days == there.days || !dated)
+    }
+
     /// How many lines there are behind this place, which is `from` of a reader that has so many.
     pub fn lines_behind(&self, from: &Self, lines: u32) -> u32 {
         self.line + lines - from.line
@@ -234,6 +310,7 @@ impl Place {
                 self.foreign_protocols[place] + to.foreign_protocols[place] - from.foreign_protocols[place]
             }),
             open: to.open.clone(),
+            times: to.times,
             state: to.state,
         }
     }
@@ -315,6 +392,7 @@ mod tests {
             pauses: 300 + 3 * by,
             line: 400 + 4 * by as u32,
             days: 500 + 5 * by as i64,
+            times: Some((by as i64, 2 * by as i64)),
             foreign_protocols: [600 + 6 * by as u32; FOREIGN.len()],
             open: vec![by],
             state: by as u64,
@@ -324,7 +402,8 @@ mod tests {
     #[test]
     fn a_place_in_the_numbers_of_another_reader() {
         // From 10 to 30 of the other one it is as far as from 50 to 70 of the own.
-        assert_eq!(place(50).moved(&place(10), &place(30)), Place { open: vec![30], state: 30, ..place(70) });
+        let moved = place(50).moved(&place(10), &place(30));
+        assert_eq!(moved, Place { open: vec![30], times: Some((30, 60)), state: 30, ..place(70) });
         assert_eq!(place(50).lines_behind(&place(10), 1000), 1160);
     }
 }

@@ -18,7 +18,7 @@ mod statistics;
 mod stream;
 
 pub use collect::{Chunk, Traffic};
-pub use cut::Place;
+pub use cut::{Found, Place, Sums};
 pub use entries::{Entries, Iter};
 pub use entry::{Entry, Hint, Role, Written};
 pub use settle::Lines;
