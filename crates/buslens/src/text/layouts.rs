@@ -71,10 +71,55 @@ impl Layout {
         LAYOUTS.iter().find(|layout| layout.key == key)
     }
 
-    /// Whether a line looks so.
-    pub fn shows(&self, line: &[u8]) -> bool {
-        self.signs.iter().any(|sign| has(line, sign.as_bytes()))
+    /// The layouts that a line shows, by their places in [`LAYOUTS`]: a bit for each.
+    pub fn shown(line: &[u8]) -> u32 {
+        let start = line.len() - line.trim_ascii_start().len();
+        let begins = line.get(start).map_or(0, |c| BEGIN[usize::from(*c)]);
+        let mut shown = 0;
+        for (at, c) in line.iter().enumerate() {
+            let anchored = if at == start { begins } else { 0 };
+            let mut may_show = (WITHIN[usize::from(*c)] | anchored) & !shown;
+            while may_show != 0 {
+                let index = may_show.trailing_zeros();
+                may_show &= may_show - 1;
+                let mut signs = LAYOUTS[index as usize].signs.iter().map(|sign| sign.as_bytes());
+                let is_here = |sign: &[u8]| match sign {
+                    [b'^', sign @ ..] => at == start && like(&line[at..], sign),
+                    sign => like(&line[at..], sign),
+                };
+                shown |= u32::from(signs.any(is_here)) << index;
+            }
+        }
+        shown
     }
+}
+
+/// The layouts with a sign that may begin with a character at the beginning of a line, and anywhere in it: a bit for
+/// each.
+static BEGIN: [u32; 256] = first_characters(true);
+static WITHIN: [u32; 256] = first_characters(false);
+
+const fn first_characters(anchored: bool) -> [u32; 256] {
+    let mut layouts = [0; 256];
+    let mut c = 0;
+    while c < layouts.len() {
+        let mut index = 0;
+        while index < LAYOUTS.len() {
+            let mut nth = 0;
+            while nth < LAYOUTS[index].signs.len() {
+                let sign = LAYOUTS[index].signs[nth].as_bytes();
+                let is_anchored = sign[0] == b'^';
+                let first = sign[is_anchored as usize];
+                if is_anchored == anchored && stands_for(first, c as u8) {
+                    layouts[c] |= 1 << index;
+                }
+                nth += 1;
+            }
+            index += 1;
+        }
+        c += 1;
+    }
+    layouts
 }
 
 /// An export that names telegrams without giving their bytes.
@@ -111,18 +156,23 @@ pub fn export(text: &[u8]) -> Option<&'static Export> {
 
 /// Whether `sign` is in `line`.
 fn has(line: &[u8], sign: &[u8]) -> bool {
-    let like = |text: &[u8], sign: &[u8]| {
-        text.len() >= sign.len()
-            && sign.iter().zip(text).all(|(sign, c)| match sign {
-                b'#' => c.is_ascii_digit(),
-                b'@' => c.is_ascii_hexdigit(),
-                sign => sign == c,
-            })
-    };
     match sign {
         [b'^', sign @ ..] => like(line.trim_ascii_start(), sign),
-        // The first letter is found quickly; it is never a wildcard.
-        _ => (0..line.len()).any(|at| line[at] == sign[0] && like(&line[at..], sign)),
+        _ => (0..line.len()).any(|at| like(&line[at..], sign)),
+    }
+}
+
+/// Whether a text begins with `sign`.
+fn like(text: &[u8], sign: &[u8]) -> bool {
+    text.len() >= sign.len() && sign.iter().zip(text).all(|(sign, c)| stands_for(*sign, *c))
+}
+
+/// Whether a character of a sign stands for another one.
+const fn stands_for(sign: u8, c: u8) -> bool {
+    match sign {
+        b'#' => c.is_ascii_digit(),
+        b'@' => c.is_ascii_hexdigit(),
+        sign => sign == c,
     }
 }
 

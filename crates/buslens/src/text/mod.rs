@@ -129,6 +129,8 @@ pub struct Reader {
     /// How many pieces were given of the line in hand, and what was told of the last one.
     given: usize,
     told: Told,
+    /// How the numbers of its lines are written, where that is counted.
+    written: Option<Written>,
 }
 
 /// A line without bytes that says something about the next ones.
@@ -300,6 +302,7 @@ impl Reader {
         }
         // Nothing in the lines before could say more of this one.
         let apart = !self.long
+            && self.written.is_none()
             && !self.form.counted
             && self.form.marks.is_none()
             && self.form.flow.is_none()
@@ -345,6 +348,9 @@ impl Reader {
             if row.is_none() {
                 self.alike.learn(line, &self.scan);
             }
+        }
+        if let Some(written) = &mut self.written {
+            written.count(&self.scan);
         }
         if self.form.counted {
             self.scan.drop_counts();
@@ -404,6 +410,8 @@ impl Reader {
             self.end_columns(sink);
         }
         let last = self.scan.runs.last().map(|run| run.span);
+        // The numbers between its bytes count them.
+        let indexed = self.scan.behind_indices(line).is_some() && !marked;
         let (mut given, mut placed) = (false, false);
         for index in 0..self.scan.runs.len() {
             let run = self.scan.runs[index];
@@ -422,7 +430,7 @@ impl Reader {
             let said = run.said && run.sender.is_some_and(|(_, weight)| weight == Weight::Strong);
             let named = self.scan.is_acknowledgement(&run);
             let rest = short && !marked && (bare && two || said || named || ends && is_labelled(line, &run));
-            if short && !rest && !marked {
+            if (short && !rest && !marked) || indexed {
                 continue;
             }
             given |= !short || marked || bare;
@@ -431,7 +439,7 @@ impl Reader {
                 Context { time, joins: self.long || joined, dumped: marked, bare, rest, sender: None };
             self.emit(line, &run, context, sink);
         }
-        self.marked_bytes(time, sink);
+        self.bytes_apart(line, time, sink);
         if !given {
             return self.without_bytes(line, time, sink);
         }
@@ -448,21 +456,26 @@ impl Reader {
     }
 
     /// Gives all bytes of a line that have a mark of their own, where words stand between them: `ADR 01H, CMD
-    /// 03H, address 21H 02H`.
-    fn marked_bytes(&mut self, time: Option<i64>, sink: &mut dyn FnMut(Event<'_>)) {
-        let runs = || self.scan.runs.iter().filter(|run| run.marked);
+    /// 03H, address 21H 02H`; and those behind running numbers: `{"0":1,"1":3}`.
+    fn bytes_apart(&mut self, line: &[u8], time: Option<i64>, sink: &mut dyn FnMut(Event<'_>)) {
+        let scan = &self.scan;
+        let runs = || scan.runs.iter().filter(|run| run.marked);
         let longest = runs().map(Run::len).max().unwrap_or_default();
         let all: usize = runs().map(Run::len).sum();
-        if all == longest || all < SHORTEST {
-            return;
-        }
+        let marked = all != longest && all >= SHORTEST;
+        let chosen: Vec<usize> = match scan.behind_indices(line) {
+            _ if marked => runs().flat_map(|run| run.first..run.end).collect(),
+            Some(behind) => behind.collect(),
+            None => return,
+        };
         self.given += 1;
-        let bytes: Vec<u8> = runs().flat_map(|run| &self.scan.hex[run.first..run.end]).copied().collect();
-        let places: Vec<Span> =
-            runs().flat_map(|run| &self.scan.places[run.first..run.end]).copied().collect();
+        let take = |of: &[u8]| chosen.iter().filter_map(|at| of.get(*at)).copied().collect::<Vec<u8>>();
+        let (bytes, decimal) = (take(&scan.hex), take(&scan.decimal));
+        let places: Vec<Span> = chosen.iter().map(|at| scan.places[*at]).collect();
+        let both = !marked && decimal.len() == bytes.len();
         sink(Event::Piece(Piece {
             bytes: &bytes,
-            decimal: None,
+            decimal: both.then_some(&decimal),
             breaks: &[],
             places: &places,
             pairs: None,
@@ -472,7 +485,7 @@ impl Reader {
             sender: self.scan.sender.map(|(sender, _)| sender),
             port: None,
             joins: false,
-            facts: Facts { column: true, marked: true, ..Facts::default() },
+            facts: Facts { column: true, marked, ..Facts::default() },
         }));
     }
 
@@ -852,14 +865,15 @@ pub fn recognise(text: &[u8]) -> Recognised {
     let text = &text[..text.len().min(ENOUGH)];
     let mut shown = [0; LAYOUTS.len()];
     for line in text.split(|c| matches!(c, b'\n' | b'\r')) {
-        if let Some(index) = LAYOUTS.iter().position(|layout| layout.shows(line)) {
-            shown[index] += 1;
+        // Of several, the first one counts.
+        if let Some(count) = shown.get_mut(Layout::shown(line).trailing_zeros() as usize) {
+            *count += 1;
         }
     }
     let best = LAYOUTS.iter().zip(shown).filter(|(_, count)| *count > 0).max_by_key(|(_, count)| *count);
     let layout = best.map(|(layout, _)| layout);
     let (mut with_bytes, mut telling, mut dumped) = (0, 0, 0);
-    let mut reader = Reader::default();
+    let mut reader = Reader { written: Some(Written::default()), ..Reader::default() };
     let mut count = |event: Event<'_>| {
         if let Event::Piece(piece) = event {
             with_bytes += 1;
@@ -869,10 +883,10 @@ pub fn recognise(text: &[u8]) -> Recognised {
     };
     reader.push(text, &mut count);
     reader.finish(&mut count);
-    let Written { numbers, style, padded } = numbers(text);
+    let written = reader.written.unwrap_or_default();
     // The name of a program may stand in a text that was written by another one.
-    let numbers = layout.and_then(|layout| layout.numbers).filter(|_| !padded).or(numbers);
-    Recognised { layout, numbers, style, with_bytes, telling, dumped }
+    let numbers = layout.and_then(|layout| layout.numbers).filter(|_| !written.padded).or(written.numbers());
+    Recognised { layout, numbers, style: written.style(), with_bytes, telling, dumped }
 }
 
 /// Whether each line of a text is quoted: `> 01 03`.
@@ -915,41 +929,45 @@ pub fn counted(text: &[u8], numbers: Option<Numbers>) -> bool {
 }
 
 /// How the numbers of a text are written.
+#[derive(Debug, Default)]
 struct Written {
-    /// All of them, if its lines leave no doubt.
-    numbers: Option<Numbers>,
-    /// Most bytes.
-    style: Option<Style>,
+    /// Lines whose bytes can only be hex, and only decimal.
+    hex: usize,
+    decimal: usize,
     /// There are some with a zero before one digit, which is not how decimal numbers are written.
     padded: bool,
+    /// How many bytes are written in each style.
+    styles: [usize; Style::ALL.len()],
 }
 
-/// How the numbers of a text are written.
-fn numbers(text: &[u8]) -> Written {
-    /// So many lines leave no doubt.
-    const SURE: usize = 8;
-    let mut scan = Scan::default();
-    let (mut hex, mut decimal, mut padded) = (0, 0, false);
-    let mut styles = [0; Style::ALL.len()];
-    for line in text.split(|c| matches!(c, b'\n' | b'\r')) {
-        scan.read(line, Start::default(), None);
-        if let Some(run) = scan.runs.iter().max_by_key(|run| run.len()) {
-            styles[run.style as usize] += run.len();
-            if run.len() >= SHORTEST {
-                hex += usize::from(run.hex && !run.decimal);
-                decimal += usize::from(!run.hex && run.decimal);
-                padded |= run.is_padded();
-            }
+impl Written {
+    /// Counts what stands in a line.
+    fn count(&mut self, scan: &Scan) {
+        let Some(run) = scan.runs.iter().max_by_key(|run| run.len()) else { return };
+        self.styles[run.style as usize] += run.len();
+        if run.len() >= SHORTEST {
+            self.hex += usize::from(run.hex && !run.decimal);
+            self.decimal += usize::from(!run.hex && run.decimal);
+            self.padded |= run.is_padded();
         }
     }
-    let style =
-        Style::ALL.into_iter().zip(styles).filter(|(_, count)| *count > 0).max_by_key(|(_, count)| *count);
-    let numbers = match (hex, decimal) {
-        (SURE.., 0) => Some(Numbers::Hex),
-        (0, SURE..) => Some(Numbers::Decimal),
-        _ => None,
-    };
-    Written { numbers, style: style.map(|(style, _)| style), padded }
+
+    /// How all numbers are written, if the lines leave no doubt.
+    fn numbers(&self) -> Option<Numbers> {
+        /// So many lines leave none.
+        const SURE: usize = 8;
+        match (self.hex, self.decimal) {
+            (SURE.., 0) => Some(Numbers::Hex),
+            (0, SURE..) => Some(Numbers::Decimal),
+            _ => None,
+        }
+    }
+
+    /// How most bytes are written.
+    fn style(&self) -> Option<Style> {
+        let styles = Style::ALL.into_iter().zip(self.styles).filter(|(_, count)| *count > 0);
+        styles.max_by_key(|(_, count)| *count).map(|(style, _)| style)
+    }
 }
 
 #[cfg(test)]

@@ -401,3 +401,29 @@ pub(super) fn hash_entry(entry: &Entry, line: u32, days: i64, hasher: &mut impl 
     (behind(line, own), skip, length, partner, port, protocol, unit).hash(hasher);
     (entry.function, entry.verdict as u8, entry.direction, entry.role, entry.sides, entry.hint).hash(hasher);
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A place whose numbers lie `by` further on than others.
+    fn place(by: usize) -> Place {
+        Place {
+            telegrams: 100 + by,
+            lines: 200 + 2 * by,
+            pauses: 300 + 3 * by,
+            line: 400 + 4 * by as u32,
+            days: 500 + 5 * by as i64,
+            foreign_protocols: [600 + 6 * by as u32; FOREIGN.len()],
+            open: vec![by],
+            state: by as u64,
+        }
+    }
+
+    #[test]
+    fn a_place_in_the_numbers_of_another_reader() {
+        // From 10 to 30 of the other one it is as far as from 50 to 70 of the own.
+        assert_eq!(place(50).moved(&place(10), &place(30)), Place { open: vec![30], state: 30, ..place(70) });
+        assert_eq!(place(50).lines_behind(&place(10), 1000), 1160);
+    }
+}

@@ -96,8 +96,17 @@ static FOREIGN: &[(&[u8], &str, &str)] = &[
     (b"{\\rtf", "a document in RTF", "save it as plain text"),
 ];
 
+/// What a file's beginning tells of it.
+pub(super) struct Told {
+    pub format: Format,
+    pub encoding: Encoding,
+    /// A text with rows of dumps in it.
+    pub dumps: bool,
+}
+
 /// Tells what a file is from its beginning.
-pub(super) fn tell(beginning: &[u8], reading: &Reading) -> Result<(Format, Encoding), Refusal> {
+pub(super) fn tell(beginning: &[u8], reading: &Reading) -> Result<Told, Refusal> {
+    let told = |format, encoding| Ok(Told { format, encoding, dumps: false });
     if beginning.is_empty() {
         return Err(Refusal::Empty);
     }
@@ -105,7 +114,7 @@ pub(super) fn tell(beginning: &[u8], reading: &Reading) -> Result<(Format, Encod
     if let Some(format) = crate::capture::Capture::recognises(beginning)
         && matches!(reading.input, Input::Auto | Input::Capture)
     {
-        return Ok((Format::Capture { name: format.name() }, Encoding::Binary));
+        return told(Format::Capture { name: format.name() }, Encoding::Binary);
     }
     if reading.input == Input::Capture {
         let instead = "a capture begins with the magic number of pcap or pcapng";
@@ -113,14 +122,14 @@ pub(super) fn tell(beginning: &[u8], reading: &Reading) -> Result<(Format, Encod
     }
     let encoding = text::encoding(beginning);
     if reading.input == Input::Binary {
-        return Ok((Format::Stream, encoding));
+        return told(Format::Stream, encoding);
     }
     let foreign = FOREIGN.iter().find(|(magic, ..)| beginning.starts_with(magic));
     if let Some((_, name, instead)) = foreign.filter(|_| reading.input == Input::Auto) {
         return Err(Refusal::Foreign { name, instead });
     }
     if encoding == Encoding::Binary && reading.input == Input::Auto {
-        return Ok((Format::Stream, encoding));
+        return told(Format::Stream, encoding);
     }
     let text = encoding.text(beginning);
     let recognised = text::recognise(&text);
@@ -136,5 +145,5 @@ pub(super) fn tell(beginning: &[u8], reading: &Reading) -> Result<(Format, Encod
         style: recognised.style,
         tells: recognised.telling * 2 > recognised.with_bytes,
     };
-    Ok((format, encoding))
+    Ok(Told { format, encoding, dumps: recognised.dumped > 0 })
 }

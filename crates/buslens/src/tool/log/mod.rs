@@ -248,7 +248,7 @@ impl Log {
         mut options: Options,
     ) -> Result<Self, Refusal> {
         options.take_device();
-        let (format, encoding) = format::tell(beginning, reading)?;
+        let format::Told { format, encoding, dumps } = format::tell(beginning, reading)?;
         let beginning = encoding.text(beginning);
         let numbers = reading.numbers.or(match format {
             Format::Text { numbers, .. } => numbers,
@@ -260,9 +260,9 @@ impl Log {
         let quoted = is_text && text::quoted(&beginning);
         let form = Form { numbers, counted, quoted, flow, marks: reading.marks.clone() };
         #[cfg(feature = "captures")]
-        let packets = if is_text { packets::Packets::of(&beginning, &form) } else { None };
+        let packets = if dumps { packets::Packets::of(&beginning, &form) } else { None };
         #[cfg(not(feature = "captures"))]
-        let packets: Option<()> = None;
+        let packets = None::<()>.filter(|()| dumps);
         let of_network = packets.is_some() || matches!(format, Format::Capture { .. });
         let choice = choose(&format, of_network, &beginning, &form, &options);
         let mut traffic = Traffic::new(choice.protocol, &options.settings.frame);
