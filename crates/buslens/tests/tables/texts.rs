@@ -377,6 +377,7 @@ pub const SURROUNDINGS: &[&str] = &[
     "tx 11000101 01 03 00 C8",
     "01 02 03 AAZq 78 , ",
     "tx: 01 03 0{0 C8 then 01  03 00 C8 (8)",
+    "01 03 FE C8 00 ->  read, write request",
 ];
 
 /// Times in front of bytes.
@@ -584,4 +585,7 @@ pub const BLOCKS: &[&str] = &[
     "ADR 01H 03H 00H C8H 00H",
     "0x0000:  0103 00c8 0003 8435 63\n0x0010:  01030103 06000600",
     "12 34 x5 78 9a\nrx: 01 03 06 00 80\n42 A4 F1 DE B0 F8",
+    "1, 3, 0, 20,\n'\\x01\\x03' and \"\\x00\\xC8\\x00\\x03\\x84\\x35\"\n0x00, 0x03, 0x84, 0x35",
+    "\nrequest: \\00\\2c\\00\\00\\00\\06\\09\\03\\00\\12\\00\\n\nresponse: \\00\\2c\\00\\00\\00\\03\\09\\83\\n\n0\nwhile what I measure behind it is fine (see C:\\bench\\0a\\log)\n",
+    "discarded 0x01, 0x03,\n0, 20, E5\n0x05 8:\n01%2003%2000%20C8%2000",
 ];
