@@ -18,7 +18,7 @@ use thirtyfour::prelude::*;
 
 use browser::Driver;
 pub use browser::{Engine, chromium_only};
-pub use site::{Files, Site, dist, next_version, version};
+pub use site::{Files, Site, changed, dist, next_version, version};
 
 /// What a step of a test gives; the error says what went wrong.
 pub type Result<T = ()> = WebDriverResult<T>;
@@ -274,19 +274,27 @@ impl Page {
 
     /// How much memory the page has with its workers, in MB, where the system tells.
     pub fn memory(&self) -> Option<u64> {
-        let read = |process: u64, file: &str| std::fs::read_to_string(format!("/proc/{process}/{file}")).ok();
-        let status = |process, key: &str| {
-            let text = read(process, "status")?;
-            text.lines()
-                .find_map(|line| line.strip_prefix(key)?.split_whitespace().next()?.parse::<u64>().ok())
-        };
+        Some(self.renderers()?.into_iter().filter_map(|it| status(it, "VmRSS:")).sum::<u64>() / 1024)
+    }
+
+    /// How many workers it has, where the system tells.
+    pub fn workers(&self) -> Option<usize> {
+        let threads =
+            |process| std::fs::read_dir(format!("/proc/{process}/task")).into_iter().flatten().flatten();
+        let names = self.renderers()?.into_iter().flat_map(threads);
+        let names = names.filter_map(|thread| std::fs::read_to_string(thread.path().join("comm")).ok());
+        Some(names.filter(|name| name.starts_with("DedicatedWorker")).count())
+    }
+
+    /// The processes that hold the page and its workers.
+    fn renderers(&self) -> Option<Vec<u64>> {
         let all: Vec<u64> = std::fs::read_dir("/proc")
             .ok()?
             .filter_map(|entry| entry.ok()?.file_name().to_str()?.parse().ok())
             .collect();
         let own = format!("--user-data-dir={}", self.profile.path().display());
         let started =
-            |process: u64, word: &str| read(process, "cmdline").is_some_and(|line| line.contains(word));
+            |process: u64, word: &str| told(process, "cmdline").is_some_and(|line| line.contains(word));
         // The browser, what it started, and what that started.
         let mut family: Vec<u64> =
             all.iter().copied().filter(|it| started(*it, &own) && !started(*it, "--type=")).collect();
@@ -295,8 +303,7 @@ impl Page {
             next += 1;
             family.extend(all.iter().copied().filter(|it| status(*it, "PPid:") == Some(parent)));
         }
-        let renderers = family.into_iter().filter(|it| started(*it, "--type=renderer"));
-        Some(renderers.filter_map(|it| status(it, "VmRSS:")).sum::<u64>() / 1024)
+        Some(family.into_iter().filter(|it| started(*it, "--type=renderer")).collect())
     }
 
     /// What came to the browser's console since the last look.
@@ -360,6 +367,17 @@ impl Page {
         self.settle().await?;
         self.driver.screenshot(&folder.join(format!("{name}.png"))).await
     }
+}
+
+/// What the system tells of a process, where it does.
+fn told(process: u64, file: &str) -> Option<String> {
+    std::fs::read_to_string(format!("/proc/{process}/{file}")).ok()
+}
+
+/// A number in that.
+fn status(process: u64, key: &str) -> Option<u64> {
+    let text = told(process, "status")?;
+    text.lines().find_map(|line| line.strip_prefix(key)?.split_whitespace().next()?.parse().ok())
 }
 
 fn setting(name: &str) -> String {

@@ -186,6 +186,19 @@ pub fn next_version(files: &Files) -> Files {
     next
 }
 
+/// The page with something else in one of its files, whose name begins so.
+pub fn changed(mut files: Files, name: &str, from: &str, to: &str) -> Files {
+    let (name, before) = files
+        .iter()
+        .find(|(file, content)| file.starts_with(name) && String::from_utf8_lossy(content).contains(from))
+        .map(|(name, content)| (name.clone(), content.clone()))
+        .expect("the page has such a file");
+    let after = replaced(&before, from, to);
+    let document = replaced(&files["index.html"], &integrity(&before), &integrity(&after));
+    files.extend([(name, after), ("index.html".to_owned(), document)]);
+    files
+}
+
 /// The version that a page says it is.
 pub fn version(files: &Files) -> String {
     let document = String::from_utf8_lossy(&files["index.html"]).into_owned();

@@ -6,7 +6,6 @@ use std::rc::{Rc, Weak};
 use gloo_timers::callback::Timeout;
 use leptos::task::spawn_local;
 use wasm_bindgen::closure::Closure;
-use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_futures::JsFuture;
 use web_sys::js_sys::{Array, Uint8Array};
@@ -15,15 +14,9 @@ use web_sys::{Blob, Event, MessageEvent, Worker};
 use super::mail;
 use super::messages::{Answer, How, Request};
 use super::reader::Reader;
+use super::start_worker;
 use crate::browser::file;
 use buslens::tool::log::{Log, Source};
-
-#[wasm_bindgen]
-extern "C" {
-    /// Only the boot script knows where the module is: in files of a server, or in the document.
-    #[wasm_bindgen(js_name = startWorker, catch)]
-    fn start_worker() -> Result<Worker, JsValue>;
-}
 
 /// What is not larger is read where the page is, within a frame; the rest in the worker.
 pub const SMALL: usize = 1 << 16;
@@ -84,6 +77,14 @@ impl Source for Memory {
     }
 }
 
+/// How many workers may read at once.
+fn cores() -> usize {
+    /// More would take memory, and would wait for the disk.
+    const MOST: usize = 4;
+    let cores = web_sys::window().map_or(1.0, |window| window.navigator().hardware_concurrency());
+    (cores as usize).clamp(1, MOST)
+}
+
 impl Client {
     pub fn new(hear: Hear) -> Rc<Self> {
         Rc::new_cyclic(|me| Self {
@@ -115,7 +116,7 @@ impl Client {
     pub fn open_file(&self, file: Blob, how: How) {
         self.close();
         if file.size() > SMALL as f64 {
-            return self.post(&Request::Open(how), &file);
+            return self.post(&Request::Open(how, cores()), &file);
         }
         let (client, turn) = (self.me.clone(), self.turn.get());
         spawn_local(async move {

@@ -1,6 +1,7 @@
 //! What the page asks of whoever reads a log, and what it is told: plain data.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
@@ -93,10 +94,13 @@ impl Marked {
     }
 }
 
-/// What the page asks. The file of `Open` comes beside it.
+/// What the page asks. The file of `Open` and `Read` comes beside it.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Request {
-    Open(How),
+    /// It may be read by so many workers at once.
+    Open(How, usize),
+    /// A slice is read for another worker.
+    Read(Share),
     /// What is read so far is enough.
     Stop,
     /// The devices are others, or set up in another way.
@@ -127,6 +131,15 @@ pub enum Request {
         kind: Export,
         notes: BTreeMap<usize, String>,
     },
+}
+
+/// What a worker reads for another one.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Share {
+    pub how: How,
+    /// So much of the file is its beginning.
+    pub beginning: u64,
+    pub slice: Range<u64>,
 }
 
 /// Which telegrams the list has.
@@ -245,6 +258,8 @@ pub enum Answer {
     PassedOn(Passed),
     /// A file comes beside it.
     Exported(Export),
+    /// What was found in a slice since the last one comes beside it.
+    Found,
 }
 
 impl Passed {

@@ -1,23 +1,33 @@
 //! Reading logs of any size, without making the page wait.
 //!
 //! Large files are read by a worker: the page's module started once more, without a page. Small ones are
-//! read where the page is. Both are the same `reader`, asked and answered in the same `messages`. All of it is
-//! in the part of the module that comes after the first view.
+//! read where the page is. Both are the same `reader`, asked and answered in the same `messages`. For very large ones
+//! the worker starts `others`, each of which reads a slice. All of it is in the part of the module that comes after the
+//! first view.
 
 pub mod client;
 mod mail;
 pub mod messages;
+mod others;
 mod reader;
 mod serve;
 
+use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsCast, JsValue};
 // Leptos has no executor where nothing is mounted.
 use wasm_bindgen_futures::spawn_local;
-use web_sys::{DedicatedWorkerGlobalScope, js_sys};
+use web_sys::{DedicatedWorkerGlobalScope, Worker, js_sys};
 
 use crate::later;
 
 pub use serve::serve;
+
+#[wasm_bindgen]
+extern "C" {
+    /// Only the boot script knows where the module is: in files of a server, or in the document.
+    #[wasm_bindgen(js_name = startWorker, catch)]
+    fn start_worker() -> Result<Worker, JsValue>;
+}
 
 /// Whether this module runs as a worker.
 pub fn is_worker() -> bool {

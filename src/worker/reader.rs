@@ -68,9 +68,9 @@ impl<S: Source> Reader<S> {
         Self { log, source, size, findings: Vec::new(), chosen, known: 0 }
     }
 
-    /// Takes the next part of the file; `false` if no more can be kept.
-    pub fn take(&mut self, part: &[u8]) -> bool {
-        self.log.push(part)
+    /// The log, to be read on.
+    pub fn log(&mut self) -> &mut Log {
+        &mut self.log
     }
 
     /// How many telegrams are read.
@@ -160,7 +160,11 @@ impl<S: Source> Reader<S> {
             Request::Unread => vec![self.unread()],
             Request::Sample => vec![self.sample()],
             Request::Digest => vec![Answer::Digest(Box::new(self.digest()))],
-            Request::Open(_) | Request::Stop | Request::Export { .. } | Request::PassOn(_) => Vec::new(),
+            Request::Open(..)
+            | Request::Read(_)
+            | Request::Stop
+            | Request::Export { .. }
+            | Request::PassOn(_) => Vec::new(),
         }
     }
 

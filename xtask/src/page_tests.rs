@@ -180,53 +180,79 @@ impl Start {
 /// The keeping process: starts a program, prints by what number it is found, and ends it when its own standard
 /// input closes.
 pub fn keep(program: &str) -> ExitCode {
-    let failed = |error| {
-        eprintln!("{program} did not start: {error}.");
-        ExitCode::FAILURE
-    };
-    let start = match Start::of(program) {
-        Ok(start) => start,
-        Err(error) => return failed(error),
-    };
-    // The program gets a pipe for its words: it may not write to one that closed.
-    let mut command = Command::new(program);
-    command.args(&start.arguments).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null());
-    // What it starts is of its group, and ends with it.
-    #[cfg(unix)]
-    std::os::unix::process::CommandExt::process_group(&mut command, 0);
-    let mut kept = match command.spawn() {
-        Ok(kept) => kept,
-        Err(error) => return failed(error),
-    };
-
-    let mut lines = kept.stdout.take().map(|stdout| BufReader::new(stdout).lines());
-    let number = match start.port {
-        Some(port) => comes_up(port).then_some(port),
-        None => lines
-            .as_mut()
-            .and_then(|lines| lines.map_while(io::Result::ok).find_map(|line| (start.says)(&line))),
-    };
-    // It may go on talking.
-    std::thread::spawn(move || lines.into_iter().flatten().for_each(drop));
-
-    if let Some(number) = number {
-        println!("{number}");
-        let _ = io::stdin().read_to_end(&mut Vec::new());
-        if start.listens {
-            let _ = shut_down(number);
-            let end = Instant::now() + PATIENCE;
-            while Instant::now() < end && matches!(kept.try_wait(), Ok(None)) {
-                std::thread::sleep(Duration::from_millis(20));
+    // Two that start at once may choose the same port, and one of them ends: it chooses again.
+    for _ in 0..5 {
+        match Running::start(program) {
+            Ok(Some(running)) => {
+                println!("{}", running.number);
+                let _ = io::stdin().read_to_end(&mut Vec::new());
+                return ExitCode::SUCCESS;
+            }
+            Ok(None) => {}
+            Err(error) => {
+                eprintln!("{program} did not start: {error}.");
+                return ExitCode::FAILURE;
             }
         }
     }
-    #[cfg(unix)]
-    drop(
-        Command::new("kill").args(["-KILL", "--", &format!("-{}", kept.id())]).stderr(Stdio::null()).status(),
-    );
-    let _ = kept.kill();
-    let _ = kept.wait();
-    ExitCode::SUCCESS
+    eprintln!("{program} starts, and ends before it can be found.");
+    ExitCode::FAILURE
+}
+
+/// A program that has started; dropping it ends it and all that it started.
+struct Running {
+    program: Child,
+    number: u16,
+    /// Whether it can be asked to end.
+    listens: bool,
+}
+
+impl Running {
+    /// Starts it; nothing, if it does not say by what number it is found.
+    fn start(program: &str) -> io::Result<Option<Self>> {
+        let start = Start::of(program)?;
+        // The program gets a pipe for its words: it may not write to one that closed.
+        let mut command = Command::new(program);
+        command.args(&start.arguments).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null());
+        // What it starts is of its group, and ends with it.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        let mut running = Self { program: command.spawn()?, number: 0, listens: false };
+        let mut lines = running.program.stdout.take().map(|stdout| BufReader::new(stdout).lines());
+        let number = match start.port {
+            Some(port) => comes_up(port).then_some(port),
+            None => lines
+                .as_mut()
+                .and_then(|lines| lines.map_while(io::Result::ok).find_map(|line| (start.says)(&line))),
+        };
+        // It may go on talking.
+        std::thread::spawn(move || lines.into_iter().flatten().for_each(drop));
+        Ok(number.map(|number| {
+            (running.number, running.listens) = (number, start.listens);
+            running
+        }))
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        if self.listens {
+            let _ = shut_down(self.number);
+            let end = Instant::now() + PATIENCE;
+            while Instant::now() < end && matches!(self.program.try_wait(), Ok(None)) {
+                std::thread::sleep(Duration::from_millis(20));
+            }
+        }
+        #[cfg(unix)]
+        drop(
+            Command::new("kill")
+                .args(["-KILL", "--", &format!("-{}", self.program.id())])
+                .stderr(Stdio::null())
+                .status(),
+        );
+        let _ = self.program.kill();
+        let _ = self.program.wait();
+    }
 }
 
 /// Whether somebody takes connections at the port before long.

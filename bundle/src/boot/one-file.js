@@ -21,6 +21,7 @@ const started = () => {};
 // not start as one, and a worker may not fetch what the page made: so it is a plain script with all in it.
 let worker;
 globalThis.startWorker = () => {
+  if (!inPage) return new Worker(location.href);
   const text = [`globalThis.packed = ${JSON.stringify(packed)};\n`, script];
   worker ??= URL.createObjectURL(new Blob(text, { type: "text/javascript" }));
   return new Worker(worker);

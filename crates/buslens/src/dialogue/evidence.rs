@@ -18,7 +18,7 @@
 //! | a byte count that counts what follows; with its number of registers | 8; 16 |
 //! | an LRC is right | 8 |
 //! | a header of Modbus TCP whose length is nearly right; behind zeros | 20; 12 |
-//! | the check is there and wrong; the end is missing | −5; −3 |
+//! | the check is there and wrong, but where no check of the text was computed; the end is missing | −5; −3 |
 //! | bare in its line; said who sends it; a label before it | 4; 4; 2 |
 //! | in brackets of its own; marked as bytes; a row of a dump; words of the trade | 3; 2; 3; 3 |
 //! | a number beside it says its length, or its check is named behind it: `[CRC]` | 6 |
@@ -67,6 +67,9 @@ pub const OTHER_KIND: i32 = -8;
 
 /// Its check is wrong: of a hundred telegrams one is, of other bytes all are.
 const WRONG: i32 = -5;
+
+/// The checks of a text were not computed: that one is wrong says nothing.
+pub const MISPRINTED: i32 = -WRONG;
 
 /// Its end is missing.
 const CUT: i32 = -3;

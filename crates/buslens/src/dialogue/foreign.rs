@@ -2,6 +2,7 @@
 //! PROFIBUS.
 
 use crate::frame::profibus_fdl::Fdl;
+use crate::walk::crc_residue;
 
 /// A protocol that is only named.
 #[derive(Debug)]
@@ -28,6 +29,7 @@ pub static FOREIGN: &[Foreign] = &[
     Foreign::likely("BACnet MS/TP", is_mstp),
     Foreign::likely("DIN 66019", is_din_66019),
     Foreign::certain("the AA 55 protocol of inverters", is_aa55),
+    Foreign::certain("a protocol with marks in front", is_marked),
     Foreign::likely("a text protocol (~ … CR)", is_tilde_text),
     Foreign::certain("M-Bus", is_meter_bus),
     Foreign::certain("DL/T 645", is_dlt_645),
@@ -124,6 +126,14 @@ fn is_aa55(bytes: &[u8]) -> bool {
     bytes.starts_with(&[0xAA, 0x55]) && sum == u16::from_be_bytes([*high, *low])
 }
 
+/// Two bytes that mark where a frame begins, as makers choose them, and the CRC of Modbus over what is behind them,
+/// or over all. Inverters that put AA 55 before answers of Modbus have the units 7Fh and F7h.
+fn is_marked(bytes: &[u8]) -> bool {
+    let marks =
+        matches!(bytes, [0xAA, 0x55, 0..0x7F, ..] | [0x55, 0xAA, ..] | [0x5A, 0xA5, ..] | [0xEB, 0x90, ..]);
+    marks && bytes.len() > 5 && [&bytes[2..], bytes].into_iter().any(|covered| crc_residue(covered) == 0)
+}
+
 /// A tilde, characters that are hex digits, CR.
 fn is_tilde_text(bytes: &[u8]) -> bool {
     match bytes {
@@ -150,6 +160,10 @@ mod tests {
             named(&[0xAA, 0x55, 1, 0, 0, 0x0B, 0x11, 4, 0, 1, 0x20]),
             Some("the AA 55 protocol of inverters")
         );
+        let marked = Some("a protocol with marks in front");
+        assert_eq!(named(&[0xAA, 0x55, 1, 3, 0, 200, 0, 3, 0x84, 0x35]), marked);
+        assert_eq!(named(&[0xAA, 0x55, 1, 3, 0, 200, 0, 3, 0x84, 0x36]), None, "a check that is wrong");
+        assert_eq!(named(&[0xAA, 0x55, 0xF7, 0x83, 2, 0x20, 0xC3]), None, "an answer of Modbus");
         assert_eq!(named(b"~20014642\r"), Some("a text protocol (~ … CR)"));
         let bytes = |text: &str| -> Vec<u8> {
             text.split(' ').map(|byte| u8::from_str_radix(byte, 16).expect("hex")).collect()

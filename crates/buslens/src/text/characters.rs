@@ -7,6 +7,11 @@ pub fn character(text: &[u8]) -> (u8, usize) {
         [b'\\', b'x' | b'X', a, b, ..] if a.is_ascii_hexdigit() && b.is_ascii_hexdigit() => {
             (hex_value(&[*a, *b]), 4)
         }
+        [b'\\', b'u', b'0', b'0', a, b, ..] | [b'\\', b'x', b'{', a, b, b'}', ..]
+            if a.is_ascii_hexdigit() && b.is_ascii_hexdigit() =>
+        {
+            (hex_value(&[*a, *b]), 6)
+        }
         [b'\\', ..] if octal > 0 => {
             let value = text[1..=octal].iter().fold(0_u32, |sum, c| sum * 8 + u32::from(c - b'0'));
             (value as u8, 1 + octal)
@@ -31,6 +36,24 @@ pub fn character(text: &[u8]) -> (u8, usize) {
         [c, ..] => (*c, 1),
         [] => (0, 1),
     }
+}
+
+/// The number of the escape that begins `text`, read as a decimal one, and how long it is: `\148`.
+pub fn decimal_escape(text: &[u8]) -> Option<(u64, usize)> {
+    const LONGEST: usize = 4;
+    digits(&text[..text.len().min(LONGEST)], 1).filter(|_| text[0] == b'\\')
+}
+
+/// Whether a text has an escape of three digits that are no octal byte: its others are decimal, too.
+pub fn has_decimal_escapes(text: &[u8]) -> bool {
+    let decimal = |at: usize| match text.get(at + 1..at + 4) {
+        Some(digits) => {
+            digits.iter().all(u8::is_ascii_digit)
+                && (digits[0] > b'3' || digits.iter().any(|c| matches!(c, b'8' | b'9')))
+        }
+        None => false,
+    };
+    memchr::memchr_iter(b'\\', text).any(decimal)
 }
 
 /// Whether `c` is a letter or a digit. Beyond ASCII this goes by blocks: the tables of Unicode would be 2 kB of

@@ -137,6 +137,7 @@ impl Scan {
             };
         }
         self.close();
+        self.join_casts(line);
     }
 
     /// `>` or `<` at the beginning of a line, unless it is a bracket around a byte or around all: `<01><03>`.
@@ -260,10 +261,30 @@ impl Scan {
             }
             Token::Word => {
                 self.forget(first);
+                // What makes a number a byte: `0x84.toByte()`, `0x84_u8`, `17 hex`.
+                let gap = |run: &Run| &line[run.span.to..at];
+                let ends = matches!(line.get(to), Some(b'(' | b',' | b')' | b']' | b'}' | b';'));
+                let of_number = |run: &Run| match gap(run) {
+                    b"." | b"_" => run.marked && ends,
+                    b" " => line[at..to].eq_ignore_ascii_case(b"hex"),
+                    _ => false,
+                };
+                if let Some(run) = self.open_mut().filter(|run| of_number(run)) {
+                    let parentheses = if line[to..].starts_with(b"()") { 2 } else { 0 };
+                    run.span.to = to + parentheses;
+                    return run.span.to;
+                }
                 if let Some(to) = self.slip(line, at, to) {
                     return to;
                 }
                 self.close();
+                // The blank behind a word is missing: `Ask01 04`.
+                if let Some(to) = glued(&line[at..to]).map(|length| at + length)
+                    && let Some(About::Sender(sender, weight)) = words::word(&line[at..to])
+                {
+                    self.say(sender, weight);
+                    return to;
+                }
                 self.last_word = Some(Span::new(at, to));
                 match words::word(&line[at..to]) {
                     Some(About::Sender(sender, weight)) => self.say(sender, weight),
@@ -461,6 +482,20 @@ impl Scan {
         run.len() == 1 && self.hex[run.first] == SC && run.word == word_of(b"SC")
     }
 
+    /// The numbers of a line that stand behind running ones: `0: 17, 1: 03, 2: 00`.
+    pub fn behind_indices(&self, line: &[u8]) -> Option<impl Iterator<Item = usize> + use<>> {
+        /// Fewer are no list.
+        const LEAST: usize = 5;
+        let number = |at: usize| decimal(self.places.get(at)?.of(line));
+        let runs = |at: usize| {
+            let first = number(at).filter(|first| *first < 2)?;
+            let pairs = 0..self.places.len().saturating_sub(at) / 2;
+            let count = pairs.take_while(|nth| number(at + 2 * nth) == Some(first + nth)).count();
+            (count >= LEAST).then_some((at + 1..at + 2 * count).step_by(2))
+        };
+        (0..2).find_map(runs)
+    }
+
     /// The last number of the line, in decimal; 0 if there is none.
     pub fn last_number(&self, line: &[u8]) -> usize {
         let last = self.runs.last().and_then(|run| {
@@ -475,6 +510,14 @@ impl Scan {
     pub fn tail_is_plain(&self, line: &[u8], run: &Run) -> bool {
         !line[run.span.to..].iter().any(u8::is_ascii_alphanumeric)
     }
+}
+
+/// How long the word is that has a byte glued to its end, if it may: one of two digits, and small letters.
+fn glued(word: &[u8]) -> Option<usize> {
+    let length = word.len().checked_sub(2).filter(|length| *length > 2)?;
+    let (word, byte) = word.split_at(length);
+    (is_digit(byte[0]) && byte[1].is_ascii_hexdigit() && word.iter().all(u8::is_ascii_alphabetic))
+        .then_some(length)
 }
 
 #[cfg(test)]

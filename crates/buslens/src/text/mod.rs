@@ -410,6 +410,8 @@ impl Reader {
             self.end_columns(sink);
         }
         let last = self.scan.runs.last().map(|run| run.span);
+        // The numbers between its bytes count them.
+        let indexed = self.scan.behind_indices(line).is_some() && !marked;
         let (mut given, mut placed) = (false, false);
         for index in 0..self.scan.runs.len() {
             let run = self.scan.runs[index];
@@ -428,7 +430,7 @@ impl Reader {
             let said = run.said && run.sender.is_some_and(|(_, weight)| weight == Weight::Strong);
             let named = self.scan.is_acknowledgement(&run);
             let rest = short && !marked && (bare && two || said || named || ends && is_labelled(line, &run));
-            if short && !rest && !marked {
+            if (short && !rest && !marked) || indexed {
                 continue;
             }
             given |= !short || marked || bare;
@@ -437,7 +439,7 @@ impl Reader {
                 Context { time, joins: self.long || joined, dumped: marked, bare, rest, sender: None };
             self.emit(line, &run, context, sink);
         }
-        self.marked_bytes(time, sink);
+        self.bytes_apart(line, time, sink);
         if !given {
             return self.without_bytes(line, time, sink);
         }
@@ -454,21 +456,26 @@ impl Reader {
     }
 
     /// Gives all bytes of a line that have a mark of their own, where words stand between them: `ADR 01H, CMD
-    /// 03H, address 21H 02H`.
-    fn marked_bytes(&mut self, time: Option<i64>, sink: &mut dyn FnMut(Event<'_>)) {
-        let runs = || self.scan.runs.iter().filter(|run| run.marked);
+    /// 03H, address 21H 02H`; and those behind running numbers: `{"0":1,"1":3}`.
+    fn bytes_apart(&mut self, line: &[u8], time: Option<i64>, sink: &mut dyn FnMut(Event<'_>)) {
+        let scan = &self.scan;
+        let runs = || scan.runs.iter().filter(|run| run.marked);
         let longest = runs().map(Run::len).max().unwrap_or_default();
         let all: usize = runs().map(Run::len).sum();
-        if all == longest || all < SHORTEST {
-            return;
-        }
+        let marked = all != longest && all >= SHORTEST;
+        let chosen: Vec<usize> = match scan.behind_indices(line) {
+            _ if marked => runs().flat_map(|run| run.first..run.end).collect(),
+            Some(behind) => behind.collect(),
+            None => return,
+        };
         self.given += 1;
-        let bytes: Vec<u8> = runs().flat_map(|run| &self.scan.hex[run.first..run.end]).copied().collect();
-        let places: Vec<Span> =
-            runs().flat_map(|run| &self.scan.places[run.first..run.end]).copied().collect();
+        let take = |of: &[u8]| chosen.iter().filter_map(|at| of.get(*at)).copied().collect::<Vec<u8>>();
+        let (bytes, decimal) = (take(&scan.hex), take(&scan.decimal));
+        let places: Vec<Span> = chosen.iter().map(|at| scan.places[*at]).collect();
+        let both = !marked && decimal.len() == bytes.len();
         sink(Event::Piece(Piece {
             bytes: &bytes,
-            decimal: None,
+            decimal: both.then_some(&decimal),
             breaks: &[],
             places: &places,
             pairs: None,
@@ -478,7 +485,7 @@ impl Reader {
             sender: self.scan.sender.map(|(sender, _)| sender),
             port: None,
             joins: false,
-            facts: Facts { column: true, marked: true, ..Facts::default() },
+            facts: Facts { column: true, marked, ..Facts::default() },
         }));
     }
 

@@ -41,6 +41,8 @@ fn is_kept(word: &str) -> bool {
         "payload",
         "pdu",
         "query",
+        "cerere",
+        "răspuns",
         "raw",
         "read",
         "reading",

@@ -151,6 +151,10 @@ const CONVERSATIONS: &[&str] = &[
      q5 99 98 97 92 y\nq6 99 98 97 91 y\nq7 99 98 97 90 y\nq8 99 98 97 89 y\nrx: 42 A4 F1 DE B0 F8",
     "tx: 01 03 00 C8 00 03 ~~\nrx: 01 03 06 00 80\nq1 99 98 97 96 y\nq2 99 98 97 95 y\nq3 99 98 97 94 y\nq4 99 98 97 93 y\n\
      q5 99 98 97 92 y\nq6 99 98 97 91 y\nq7 99 98 97 90 y\nq8 99 98 97 89 y\nq9 99 98 97 88 y\nrx: 42 A4 F1 DE B0 F8",
+    "tx: 01 03 00 C8 00 03 ~~\nrx: 01 03 06 00 80\nq1 FE 98 97 96 y\nq2 FE 98 97 95 y\nq3 FE 98 97 94 y\nq4 FE 98 97 93 y\n\
+     q5 FE 98 97 92 y\nq6 FE 98 97 91 y\nq7 FE 98 97 90 y\nq8 FE 98 97 89 y\nrx: 42 A4 F1 DE B0 F8",
+    "tx: 01 03 00 C8 00 03 ~~\nrx: 01 03 06 00 80\nq1 FE 98 97 96 y\nq2 FE 98 97 95 y\nq3 FE 98 97 94 y\nq4 FE 98 97 93 y\n\
+     q5 FE 98 97 92 y\nq6 FE 98 97 91 y\nq7 FE 98 97 90 y\nq8 FE 98 97 89 y\nq9 FE 98 97 88 y\nrx: 42 A4 F1 DE B0 F8",
     "10:00:00 rx: 01 03 06 00 80\n10:00:01 rx: 42 A4 F1 DE B0 F8",
     "10:00:00.0 rx: 01 03 06 00 80\n10:00:01.1 rx: 42 A4 F1 DE B0 F8",
     "10:00:01 rx: 01 03 06 00 80\n10:00:00 rx: 42 A4 F1 DE B0 F8",
@@ -245,11 +249,41 @@ const CONVERSATIONS: &[&str] = &[
     "52 00 23 00 00 05 00 00\n52 00 23 00 00 05 00 00\n12 00 23 01 00 06 00 00\n12 00 23 01 00 06 00 00",
     "41 00 23 00 00 00 00 00\nC1 00 23 00 06 03 00 00",
     "x 01 03 00 C8 00 03 ~~ y\n| 01 | 01 |\n| 03 | 03 |\n| 00 | 00 |\n| C8 | C9 |\n| 00 | 00 |\n| 03 | 03 |\n| 84 | D5 |\n| 35 | F5 |",
+    "a 01\nb 03\nc 05\nd 06\ne B3\nf 4A",
+    "ADR 01H, CMD 03H, CRC 40H 21H",
+    "ADR 01H, CMD 03H, number 05H 06H, CRC B3H 4AH",
     "| 01 | 01 |\n| 03 | 03 |\n| 00 | 06 |\n| C8 | 00 |\n| 00 | 80 |\n| 03 | 42 |\n| z | A4 |\n| z | F1 |\n| z | DE |",
 ];
 
+/// Slips and odd neighbours, each of which shows a difference that the other texts do not.
+const DIFFERENCES: &[&str] = &[
+    "01, }03,\n00, C8, (8)\nend 00, 03",
+    "S1: C1 00 23 00 00 00 00 00\nE1: 71 00 23 00 00 00 00 05",
+    "10:00:01 discarded  rx: 01 03 06 00 80\n1000:00 rx: 42 A4 F1 DE B0 F8",
+    "12 34 56 0AZq 78\n01 0300 C8 1A3 00\n01 03 00 C8 | ....",
+    "00 03,00 C8 10 03,84 35",
+    "8字节 01 0 00 C8 00 03 ~~",
+    "1, 3, //, 4,\nE5 5, 6",
+    "tx: 06 04 22 07 00 01 ~~\nrx: 06 04 02 00 ~~\nrx: 00\nA 0000: 01\nB 0000: 02\nC 0000: 03\nA 0001: 04\nB 0001: 05\nC 0001: 06",
+    "01 03 06 00 80 42\n41 00 23 00 00 00 00 00\n41 00 23 00 00 00 00 00\n71 00 23 00 00 00 00 05\n00 00 00 00 00 00 00 00",
+    "\"\\x01Ā\"\n0101 03 00 8 00 03 ~~  .......5",
+    "ok E5\n01 03 00 C8 0[0 03 ~~ 01 03 06 00 80 42 A4 F1 DE ~~",
+    "01 03 00 C8 00 03 ...x ->\nrx 00 01 00 00 00 06 01 03 00 C8 00 03",
+    "0000:\t01 03 00 C8\nrx: 68 05 05\nrx: 68 81 82 5D 3B 3E D9 16",
+    "and again\ntx: 01 03 00 C8 00 03 ~~\ntx: 11 42 01 02 03 04 05 06 07 ~~\n11 42 01 02 03 04 05",
+    "'\\x01\\x03' and \"\\x00\\xC8\\x00\\x03\\x84\\x35\" '\n'\\x01\\x03' and \"\\x00\\xC8\\x00\\x03\\x84\\x35\"\n'\\x01\\x03' and \"\\x00\\xC8\\x00\\x03\\x84\\x35\"",
+    "so 01 03 00  ' C8 00 03 ~~\nso 0E 03 00 C9 00 0 ~~\nso 01 03 99 AA ...\n<01><03><00><C8><00><03><84><35>",
+    "41 00 23 00 00 00 00 00 frame\n71 00 23 0000 00 00 00 05\n41 00 23 01 00 00 00 00 COM1\n71 00 23 01 00 00 00 06",
+    "10.0.0.7:49152-> 192.168.0.10:502 01 06 00 C8 00 03\nrx: 00 01 00 00 00 06 01 03  ' 00 C8 00 03\n10.0.0.7:49152-> 192.168.0.10:502 01 06 00 C8 00 03",
+    "--> 01 03 00 00 00 02 ~~\n<-- (timeout) <-\n--> 01 03 00 00 00 02~~\n<-- 00 01 03 04 00 01  02 2A 32 00\n",
+    "TX 01 03 00 C8 00 03 ~~\nrx: 01 03 00 C8 00 03 ~~\nRX 01 03 06 00 80 42 A4 F1 DE ~~\nRX 01 03 06 00 80 42 A4 F1 DE 01 03 06 00 80 42 A4 F1 DE B0 x",
+    "Request:\n01 03 00 C8 00 03 ~~\nResponse:\n01 03 06 00 80 42 A4 F1 DE ~~\ntx -> rx 01 03 00 C8\n41 54 2B 43 47 4D 49 0D",
+    "{\"ts\":5646123456789,\"level\":\"debug\",\"msg\":\"tx\",\"hex\":\"010300000002c40b\"}\n{\"ts\":1646123456839,\"level\":\"debug\",\"msg\":\"rx\",\"hex\":\"010304000100022a32\"}\n{\"ts\":1646123457839,\"level\":\"info\",\"msg\":\"value\",\"raw\":[1,2],\"float\":9.18e-41}\n",
+    "A 0000: 01\nB 0000: 02\nC 0000: 03\nA 0001: 04\nB 0001: 05\nC 0001: 06\n10 01 02 49 4C 16\nE5\n10 5B 0A 65 16\n63 03 00 C8 00 03\n63 03 06 00 80 42 A4 F1 DE\n11 22 33 44\nhello",
+];
+
 /// Puts the check of the bytes before it where `~~` stands.
-fn checked(text: &str) -> String {
+pub fn checked(text: &str) -> String {
     let mut whole = String::new();
     for (index, part) in text.split("~~").enumerate() {
         if index > 0 {
@@ -280,10 +314,20 @@ fn checked(text: &str) -> String {
 #[test]
 fn what_is_found_in_texts() {
     let mut table = String::new();
-    for text in CONVERSATIONS.iter().chain(SPELLINGS).chain(SURROUNDINGS).chain(BLOCKS) {
+    let texts = CONVERSATIONS.iter().chain(DIFFERENCES).chain(SPELLINGS).chain(SURROUNDINGS).chain(BLOCKS);
+    for text in texts {
         let text = checked(text);
         writeln!(table, "{}", text.escape_debug()).unwrap();
         found(&mut table, text.as_bytes());
+    }
+    // What is too long is no telegram; alone in its line it may be more.
+    for (before, behind) in [("", ""), ("so ", " it")] {
+        for length in [300, 301, 599, 600] {
+            let header = hex(&(length as u16 - 5).to_be_bytes());
+            let text = format!("{before}00 01 00 00 {header} 01 03{}{behind}", " 5A".repeat(length - 8));
+            writeln!(table, "{before}{length} bytes{behind}").unwrap();
+            found(&mut table, text.as_bytes());
+        }
     }
     // Of telegrams that begin alike so many are known again.
     for count in [16, 17] {
@@ -316,12 +360,16 @@ fn found(table: &mut String, text: &[u8]) {
         Err(why) => return writeln!(table, "    {why:?}").unwrap(),
     };
     for entry in log.entries() {
+        let own = log.bytes(&text, &entry);
+        let bytes = match own.len() {
+            0..=64 => hex(&own),
+            length => format!("{} … ({length} bytes)", hex(&own[..8])),
+        };
         let mut said = format!(
-            "{} at {}+{}: {} | {} {:?} {:?}",
+            "{} at {}+{}: {bytes} | {} {:?} {:?}",
             entry.line,
             entry.offset,
             entry.skip,
-            hex(&log.bytes(&text, &entry)),
             entry.protocol().key,
             entry.verdict,
             entry.direction

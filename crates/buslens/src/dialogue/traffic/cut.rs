@@ -10,10 +10,13 @@ use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
 use super::collect::{Latest, Traffic};
-use super::entries::Shift;
+use super::entries::{Entries, Shift};
 use super::entry::{Entry, NO_TIME, NOBODY, Written};
 use super::judge::{Known, Shapes};
 use super::lane::{Carries, Lane, Row};
+use super::packed::{Words, take_number, take_words};
+use super::settle::Lines;
+use super::statistics::{Counts, Span, spanned, take_times, write_times};
 use crate::dialogue::foreign::{FOREIGN, FT12};
 
 /// What the beginning of a log tells of all of it.
@@ -43,8 +46,51 @@ pub struct Place {
     foreign_protocols: [u32; FOREIGN.len()],
     /// The telegrams before it that those behind it may have to do with: how far before it they are.
     open: Vec<usize>,
+    /// The first and the last time since the mark before.
+    times: Option<Span>,
     /// Two readers are alike where this is the same.
-    pub state: u64,
+    state: u64,
+}
+
+/// What a reader found in its slice, as it handed it over.
+#[derive(Debug, Default)]
+pub struct Found {
+    settled: Entries,
+    lines: Lines,
+}
+
+/// What a reader hands over at the end of its slice, beside telegrams and lines.
+#[derive(Debug, Default)]
+pub struct Sums {
+    counts: Counts,
+    pauses: Vec<(u32, u32)>,
+    foreign_protocols: [u32; FOREIGN.len()],
+    dated: bool,
+}
+
+impl Found {
+    /// Takes what a reader [handed over](Traffic::hand_over); `None` if that is cut.
+    pub fn take(&mut self, words: &mut &[u64]) -> Option<()> {
+        self.settled.take(words)?;
+        self.lines.take(words)
+    }
+}
+
+impl Sums {
+    /// Takes what a reader [wrote](Traffic::write_sums); `None` if that is cut.
+    pub fn take(words: &mut &[u64]) -> Option<Self> {
+        let counts = Counts::take(words)?;
+        let pause = |word: &u64| ((word >> 32) as u32, *word as u32);
+        let pauses = take_number(words)?;
+        let pauses = words.split_off(..pauses)?.iter().map(pause).collect();
+        let foreign_protocols = take_words(words)?.map(|count| count as u32);
+        Some(Self { counts, pauses, foreign_protocols, dated: take_number(words)? > 0 })
+    }
+
+    /// Whether some time has a date.
+    pub fn is_dated(&self) -> bool {
+        self.dated
+    }
 }
 
 impl Traffic {
@@ -104,6 +150,11 @@ impl Traffic {
         self.meeting.fall_silent(port);
     }
 
+    /// Leaves what the beginning has: another reader has it.
+    pub fn leave_beginning(&mut self) {
+        (self.settled, self.lines, self.pauses) = Default::default();
+    }
+
     /// Goes on elsewhere in the file, of which nothing is known but what the beginning told.
     pub fn jump(&mut self) {
         (self.entries, self.data) = (Vec::new(), Vec::new());
@@ -127,8 +178,9 @@ impl Traffic {
     }
 
     /// Where the reader is, at a mark behind so many lines; `text` is the state of what reads the text.
-    pub fn place(&self, line: u32, mut text: impl Hasher) -> Place {
+    pub fn place(&mut self, line: u32, mut text: impl Hasher) -> Place {
         self.hash_state(line, &mut text);
+        let times = self.settled.counts_mut().pass_mark();
         Place {
             telegrams: self.settled.len(),
             lines: self.lines.len(),
@@ -137,8 +189,33 @@ impl Traffic {
             days: self.days,
             foreign_protocols: self.foreign_protocols,
             open: self.meeting.open(self.settled.len()),
+            times,
             state: text.finish(),
         }
+    }
+
+    /// Hands over what is settled for good, as the latest mark is this one; all of it without one.
+    pub fn hand_over(&mut self, mark: Option<&Place>, words: &mut Words) {
+        let (telegrams, lines) = mark.map_or((usize::MAX, usize::MAX), |mark| {
+            let open = mark.open.iter().max().unwrap_or(&0);
+            (mark.telegrams - open, mark.lines)
+        });
+        self.settled.hand_over(telegrams, words);
+        self.lines.hand_over(lines, words);
+    }
+
+    /// Writes what there is beside that at the end of the slice.
+    pub fn write_sums(&self, words: &mut Words) {
+        self.settled.counts().write(words);
+        words.push(self.pauses.len() as u64);
+        words.extend(self.pauses.iter().map(|(index, pause)| u64::from(*index) << 32 | u64::from(*pause)));
+        words.extend(self.foreign_protocols.map(u64::from));
+        words.push(self.dated.into());
+    }
+
+    /// Whether some time has a date.
+    pub fn is_dated(&self) -> bool {
+        self.dated
     }
 
     /// All that what comes next hangs on, apart from the beginning of the log; lines, times of day and telegrams are
@@ -172,16 +249,12 @@ impl Traffic {
         self.meeting.hash_state(self.settled.len(), line, self.days, hasher);
     }
 
-    /// Whether all that `other` finds behind `there` is found by this one behind `here`, too.
-    pub fn is_alike(&self, here: &Place, other: &Self, there: &Place) -> bool {
-        // Days are counted for times of day only.
-        here.state == there.state && (here.days == there.days || !(self.dated || other.dated))
-    }
-
-    /// Takes over what `other` settled from the place `from` on, up to `to`, where it ends, or to the end of the log.
-    /// At `from` it was as this one is `here`, which is the end of what this one has: what it still had in hand, the
-    /// other one has.
-    pub fn adopt(&mut self, here: &Place, other: &mut Self, from: &Place, to: Option<&Place>) {
+    /// Takes over what another reader found from the first of these marks on, where it was as this one is at `here`,
+    /// which is the end of what this one has: what it still had in hand, the other one has.
+    pub fn adopt(&mut self, here: &Place, found: Found, sums: Sums, marks: &[(u64, Place)]) {
+        let [(_, from), behind @ ..] = marks else { return };
+        let Found { settled, lines } = found;
+        let Sums { counts, pauses, foreign_protocols, dated } = sums;
         let base = here.telegrams;
         debug_assert_eq!(base, self.settled.len(), "it has more than it had at the mark");
         let moved = |index: u32| index.wrapping_sub(from.telegrams as u32).wrapping_add(base as u32);
@@ -189,33 +262,58 @@ impl Traffic {
         // What those behind the place told of those before it.
         for distance in &from.open {
             let (own, others) = (base - distance, from.telegrams - distance);
-            if let (Some(own_entry), Some(entry)) = (self.settled.get(own), other.settled.get(others)) {
+            if let (Some(own_entry), Some(entry)) = (self.settled.get(own), settled.get(others)) {
                 let Entry { partner, direction, role, sides, .. } = entry;
                 let partner = if partner == NOBODY { NOBODY } else { moved(partner) };
                 self.settled.set(own, &Entry { partner, direction, role, sides, ..own_entry });
             }
         }
-        let settled = std::mem::take(&mut other.settled);
-        debug_assert_eq!(settled.len(), to.map_or(settled.len(), |to| to.telegrams), "it ends there");
-        self.settled.join(settled, from.telegrams, shift);
-        let lines = to.map_or(other.lines.len(), |to| to.lines) - from.lines;
-        for (line, offset) in other.lines.iter().skip(from.lines).take(lines) {
+        let times = behind.iter().map(|(_, place)| place.times).fold(counts.latest_times(), spanned);
+        self.settled.join(settled, &counts, from.telegrams, shift);
+        let times = times.map(|(first, last)| (first + shift.days, last + shift.days));
+        self.settled.counts_mut().add_times(times);
+        for (line, offset) in lines.iter().skip(from.lines) {
             self.lines.push((line.wrapping_add(shift.lines), offset));
         }
-        let pauses = to.map_or(other.pauses.len(), |to| to.pauses);
-        self.pauses
-            .extend(other.pauses[from.pauses..pauses].iter().map(|(index, pause)| (moved(*index), *pause)));
-        let foreign = to.map_or(&other.foreign_protocols, |to| &to.foreign_protocols);
+        let pauses = pauses.iter().skip(from.pauses);
+        self.pauses.extend(pauses.map(|(index, pause)| (moved(*index), *pause)));
         for (place, count) in self.foreign_protocols.iter_mut().enumerate() {
-            *count = here.foreign_protocols[place] + foreign[place] - from.foreign_protocols[place];
+            *count = here.foreign_protocols[place] + foreign_protocols[place] - from.foreign_protocols[place];
         }
         self.room = (NOBODY as usize).saturating_sub(self.settled.len());
-        self.dated |= other.dated;
+        self.dated |= dated;
         self.jump();
     }
 }
 
 impl Place {
+    /// Writes it as words.
+    pub fn write(&self, words: &mut Words) {
+        let Self { telegrams, lines, pauses, line, days, foreign_protocols, open, times, state } = self;
+        words.extend([telegrams, lines, pauses, &open.len()].map(|count| *count as u64));
+        words.extend([u64::from(*line), *days as u64, *state]);
+        write_times(words, *times);
+        words.extend(foreign_protocols.map(u64::from));
+        words.extend(open.iter().map(|distance| *distance as u64));
+    }
+
+    /// Takes what [`write`](Self::write) wrote; `None` if that is cut.
+    pub fn take(words: &mut &[u64]) -> Option<Self> {
+        let [telegrams, lines, pauses, open] = take_words(words)?.map(|count| count as usize);
+        let [line, days, state] = take_words(words)?;
+        let (line, days, times) = (line as u32, days as i64, take_times(words)?);
+        let foreign_protocols = take_words(words)?.map(|count| count as u32);
+        let open = words.split_off(..open)?.iter().map(|distance| *distance as usize).collect();
+        Some(Self { telegrams, lines, pauses, line, days, foreign_protocols, open, times, state })
+    }
+
+    /// Whether all that another reader finds behind `there` is found by this one behind this place, too; `dated` says
+    /// whether some time has a date.
+    pub fn is_alike(&self, there: &Self, dated: bool) -> bool {
+        // Days are counted for times of day only.
+        self.state == there.state && (self.days == there.days || !dated)
+    }
+
     /// How many lines there are behind this place, which is `from` of a reader that has so many.
     pub fn lines_behind(&self, from: &Self, lines: u32) -> u32 {
         self.line + lines - from.line
@@ -234,6 +332,7 @@ impl Place {
                 self.foreign_protocols[place] + to.foreign_protocols[place] - from.foreign_protocols[place]
             }),
             open: to.open.clone(),
+            times: to.times,
             state: to.state,
         }
     }
@@ -301,4 +400,32 @@ pub(super) fn hash_entry(entry: &Entry, line: u32, days: i64, hasher: &mut impl 
     (shifted(time, days), at, offset, written.map(|Written { from, step }| (from, step))).hash(hasher);
     (behind(line, own), skip, length, partner, port, protocol, unit).hash(hasher);
     (entry.function, entry.verdict as u8, entry.direction, entry.role, entry.sides, entry.hint).hash(hasher);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A place whose numbers lie `by` further on than others.
+    fn place(by: usize) -> Place {
+        Place {
+            telegrams: 100 + by,
+            lines: 200 + 2 * by,
+            pauses: 300 + 3 * by,
+            line: 400 + 4 * by as u32,
+            days: 500 + 5 * by as i64,
+            times: Some((by as i64, 2 * by as i64)),
+            foreign_protocols: [600 + 6 * by as u32; FOREIGN.len()],
+            open: vec![by],
+            state: by as u64,
+        }
+    }
+
+    #[test]
+    fn a_place_in_the_numbers_of_another_reader() {
+        // From 10 to 30 of the other one it is as far as from 50 to 70 of the own.
+        let moved = place(50).moved(&place(10), &place(30));
+        assert_eq!(moved, Place { open: vec![30], times: Some((30, 60)), state: 30, ..place(70) });
+        assert_eq!(place(50).lines_behind(&place(10), 1000), 1160);
+    }
 }

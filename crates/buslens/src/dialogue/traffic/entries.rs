@@ -4,7 +4,7 @@
 //! or as pairs of hex digits at equal distances; others are kept.
 
 use super::entry::{Entry, Hint, NO_TIME, NOBODY, Role, Written};
-use super::packed::{Packed, Rows};
+use super::packed::{Packed, Rows, Words, take_bytes, take_number, write_bytes};
 use super::statistics::Counts;
 use crate::field::Direction;
 use crate::frame::Verdict;
@@ -95,13 +95,7 @@ impl Entries {
 
     /// All of them in their order. That is quicker than one by one.
     pub fn iter(&self) -> Iter<'_> {
-        self.iter_from(0)
-    }
-
-    fn iter_from(&self, index: usize) -> Iter<'_> {
-        let part = self.part_of(index);
-        let Part { rows, first, left_out, .. } = &self.parts[part];
-        Iter { entries: self, part, rows: rows.from(index - first + left_out), index }
+        Iter { entries: self, part: 0, rows: self.parts[0].rows.from(self.parts[0].left_out), index: 0 }
     }
 
     /// The bytes of an entry, if they are kept.
@@ -117,37 +111,40 @@ impl Entries {
         self.parts.iter().map(|part| part.rows.memory() + kept(part)).sum()
     }
 
-    /// Takes what another reader found behind its first `left_out` ones, whose lines and days differ from those here.
-    pub(super) fn join(&mut self, mut other: Self, left_out: usize, shift: Shift) {
-        let mut counts = std::mem::take(&mut other.counts);
-        other.iter().take(left_out).for_each(|entry| counts.remove(&entry));
-        if counts.has_times() {
-            let told = other.iter_from(left_out).filter(|entry| entry.role != Role::Discarded);
-            let times = told.filter_map(|entry| Some(entry.time()? + shift.days));
-            let span = times.fold(None, |span: Option<(i64, i64)>, time| {
-                let (first, last) = span.unwrap_or((time, time));
-                Some((first.min(time), last.max(time)))
-            });
-            counts.set_times(span);
+    /// Writes the telegrams before `end`, which stay as they are; that is all of what is left if nothing comes any more.
+    pub(super) fn hand_over(&mut self, end: usize, words: &mut Words) {
+        let ends = end >= self.len();
+        for part in &mut self.parts {
+            part.rows.hand_over(end, words);
+            part.kept.hand_over(ends, words);
         }
-        self.counts.join(&counts);
-        let mut before = left_out;
-        for part in other.parts {
-            let left_out = part.left_out + before.min(part.len());
-            before -= left_out - part.left_out;
-            let shift = Shift {
-                lines: shift.lines.wrapping_add(part.shift.lines),
-                days: shift.days + part.shift.days,
-            };
-            let part = Part { left_out, first: self.len(), shift, ..part };
-            if part.len() > 0 {
-                self.parts.push(part);
-            }
+    }
+
+    /// Takes what another reader [handed over](Self::hand_over); `None` if that is cut.
+    pub(super) fn take(&mut self, words: &mut &[u64]) -> Option<()> {
+        let part = self.parts.last_mut()?;
+        part.rows.take(words)?;
+        part.kept.take(words)
+    }
+
+    /// Adds what another reader found behind its first `left_out` ones, whose lines and days differ from those here, and
+    /// what it counted of all of them; what it has was taken.
+    pub(super) fn join(&mut self, other: Self, counts: &Counts, left_out: usize, shift: Shift) {
+        self.counts.join(counts);
+        other.iter().take(left_out).for_each(|entry| self.counts.remove(&entry));
+        let joined = other.parts.into_iter().next().unwrap_or_default();
+        let joined = Part { left_out, first: self.len(), shift, ..joined };
+        if joined.len() > 0 {
+            self.parts.push(joined);
         }
     }
 
     pub(super) fn counts(&self) -> &Counts {
         &self.counts
+    }
+
+    pub(super) fn counts_mut(&mut self) -> &mut Counts {
+        &mut self.counts
     }
 
     /// Adds telegrams, whose bytes lie in `data`.
@@ -298,6 +295,8 @@ fn all_bytes<'a>(run: &[Entry], data: &'a [u8]) -> &'a [u8] {
 #[derive(Debug, Default)]
 struct Kept {
     blocks: Vec<Vec<u8>>,
+    /// So many blocks before them were handed over.
+    gone: usize,
 }
 
 impl Kept {
@@ -308,7 +307,8 @@ impl Kept {
 
     /// Where the next bytes would be.
     fn end(&self) -> u64 {
-        self.blocks.last().map_or(0, |last| ((self.blocks.len() - 1) * Self::BLOCK + last.len()) as u64)
+        let before = (self.gone + self.blocks.len()).saturating_sub(1) * Self::BLOCK;
+        (before + self.blocks.last().map_or(0, Vec::len)) as u64
     }
 
     /// Keeps bytes; returns where.
@@ -330,7 +330,26 @@ impl Kept {
 
     fn get(&self, at: u64, length: usize) -> &[u8] {
         let (block, at) = (at as usize / Self::BLOCK, at as usize % Self::BLOCK);
-        self.blocks.get(block).and_then(|block| block.get(at..at + length)).unwrap_or_default()
+        let block = self.blocks.get(block.wrapping_sub(self.gone));
+        block.and_then(|block| block.get(at..at + length)).unwrap_or_default()
+    }
+
+    /// Writes the blocks that are full, which are gone then, or all of them.
+    fn hand_over(&mut self, all: bool, words: &mut Words) {
+        let blocks = if all { self.blocks.len() } else { self.blocks.len().saturating_sub(1) };
+        words.push(blocks as u64);
+        for block in self.blocks.drain(..blocks) {
+            write_bytes(words, &block);
+        }
+        self.gone += blocks;
+    }
+
+    /// Takes what another one [handed over](Self::hand_over), behind what came before it.
+    fn take(&mut self, words: &mut &[u64]) -> Option<()> {
+        for _ in 0..take_number(words)? {
+            self.blocks.push(take_bytes(words)?);
+        }
+        Some(())
     }
 }
 

@@ -172,3 +172,17 @@ pub(super) fn number(protocol: &'static Protocol) -> u8 {
     // The usual one is the first.
     PROTOCOLS.iter().position(|known| known.is(protocol)).unwrap_or_default() as u8
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_further_on() {
+        let pairs = Written { from: 10, step: 3 };
+        assert_eq!(pairs.behind(0), Some(pairs));
+        assert_eq!(pairs.behind(4), Some(Written { from: 22, step: 3 }));
+        assert_eq!(pairs.behind(1 << 31), None, "so far behind is nothing");
+        assert_eq!(Written { from: u32::MAX, step: 1 }.behind(1), None);
+    }
+}

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::collect::Traffic;
 use super::entry::{Entry, Hint, Role, bytes};
-use crate::dialogue::evidence::{self, CONVERSATION, OTHER_KIND, SAME, SEEN};
+use crate::dialogue::evidence::{self, CONVERSATION, MISPRINTED, OTHER_KIND, SAME, SEEN};
 use crate::dialogue::{Candidate, Certainty, protocols, turns};
 use crate::field::{Direction, Facts, Span};
 use crate::frame::{
@@ -182,7 +182,7 @@ impl Traffic {
         // Who types telegrams types few lines that are none.
         let read = count - weak.iter().filter(|weak| !weak.read || weak.facts.slips).count();
         let typed = self.typed && (count <= FEW || read * 2 >= count);
-        if typed && count == self.entries.len() && self.settled.is_empty() {
+        if typed && count == self.entries.len() && self.settled.is_empty() && self.context.is_none() {
             self.choose_typed(&mut weak);
         }
         self.settle_pdus(&weak, &gone);
@@ -473,6 +473,7 @@ impl Traffic {
         }
         let family = family(entry.protocol());
         let mut bits = one.bits + self.shapes.bits(facts.shape);
+        bits += if entry.verdict == Verdict::Wrong && known.misprinted { MISPRINTED } else { 0 };
         bits += if entry.verdict == Verdict::Right { SAME } else { 0 };
         bits += if copies { SAME } else { 0 };
         let pair = (entry.unit.unwrap_or_default(), entry.function & !EXCEPTION);
@@ -497,6 +498,8 @@ impl Traffic {
 
     /// Whether an entry answers one of those just before it, or is answered by one just behind.
     fn is_in_conversation(&self, one: &Weak, own: &[u8], gone: &Chosen) -> bool {
+        /// So far away they may be.
+        const FAR: usize = 32;
         let index = one.entry as usize;
         let entry = &self.entries[index];
         // Columns meet those beside them, and what is proven; the same one may be among them twice.
@@ -508,8 +511,10 @@ impl Traffic {
             let same_port = other.1.port == entry.port;
             !gone.contains(other.0) && same_port && other.1.role != Role::Discarded && beside(other.1)
         };
-        let before = self.numbered(index.saturating_sub(NEAR), index);
-        let behind = self.numbered(index + 1, index + 1 + NEAR);
+        // Single bytes, as a column of them gives, are none of those.
+        let long = |other: &(u32, &Entry)| other.1.length > 1;
+        let before = self.numbered(index.saturating_sub(FAR), index).rev().filter(long).take(NEAR);
+        let behind = self.numbered(index + 1, index + 1 + FAR).filter(long).take(NEAR);
         let fits = |request: &Entry, response: &Entry| self.answers(request, response, one.cut);
         before.clone().filter(near).any(|(_, other)| fits(other, entry))
             || (!one.cut && behind.clone().filter(near).any(|(_, other)| fits(entry, other)))
@@ -619,6 +624,8 @@ pub(super) struct Known {
     read: usize,
     /// How many bits it takes.
     threshold: i32,
+    /// No check is right, and some that are wrong leave no doubt: they were not computed.
+    misprinted: bool,
     /// Units with their functions.
     seen: HashSet<(u8, u8)>,
     /// Of which [`Family`] there are some.
@@ -632,9 +639,9 @@ pub(super) struct Known {
 impl Known {
     /// Begins with what the beginning of a log told.
     fn behind(beginning: &Arc<Self>) -> Self {
-        let Self { typed, entries, read, threshold, families, .. } = **beginning;
+        let Self { typed, entries, read, threshold, misprinted, families, .. } = **beginning;
         let beginning = Some(Arc::clone(beginning));
-        Self { typed, entries, read, threshold, families, beginning, ..Self::default() }
+        Self { typed, entries, read, threshold, misprinted, families, beginning, ..Self::default() }
     }
 
     fn has_seen(&self, pair: (u8, u8)) -> bool {
@@ -657,6 +664,9 @@ impl Known {
             let entry = &traffic.entries[weak.entry as usize];
             weak.bits >= SAME && entry.length > 3 && entry.protocol().is(&profibus_fdl::PROTOCOL)
         });
+        let entry = |weak: &Weak| &traffic.entries[weak.entry as usize];
+        self.misprinted = traffic.entries[..count].iter().all(|entry| entry.verdict != Verdict::Right)
+            && weak.iter().any(|weak| entry(weak).verdict == Verdict::Wrong && weak.bits >= self.threshold);
         for (index, entry) in (0_u32..).zip(&traffic.entries[..count]) {
             if without.contains(index) || gone.contains(index) || entry.role == Role::Discarded {
                 continue;

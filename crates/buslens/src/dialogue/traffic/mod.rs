@@ -18,8 +18,9 @@ mod statistics;
 mod stream;
 
 pub use collect::{Chunk, Traffic};
-pub use cut::Place;
+pub use cut::{Found, Place, Sums};
 pub use entries::{Entries, Iter};
 pub use entry::{Entry, Hint, Role, Written};
+pub use packed::{take_bytes, write_bytes};
 pub use settle::Lines;
 pub use statistics::{Dialog, Minutes, Statistics, latency, statistics};

@@ -8,6 +8,8 @@ use std::fmt;
 /// Rows of `N` numbers each.
 pub(super) struct Packed<const N: usize> {
     chunks: Vec<Chunk>,
+    /// So many chunks before them were handed over.
+    gone: usize,
     /// A place for the rows of the chunk that is not full yet, and how many it has.
     open: Vec<[u64; N]>,
     filled: usize,
@@ -16,6 +18,35 @@ pub(super) struct Packed<const N: usize> {
 
 /// So many rows are packed together: as many as the nearest cache of a processor holds.
 const CHUNK: usize = 256;
+
+/// What is handed over to whoever joins it, on another thread or in another worker.
+pub(super) type Words = Vec<u64>;
+
+/// The next ones of some words.
+pub(super) fn take_words<const N: usize>(words: &mut &[u64]) -> Option<[u64; N]> {
+    words.split_off(..N)?.try_into().ok()
+}
+
+/// The next one of some words, as a number of something.
+pub(super) fn take_number(words: &mut &[u64]) -> Option<usize> {
+    usize::try_from(*words.split_off_first()?).ok()
+}
+
+/// Writes bytes as words.
+pub fn write_bytes(words: &mut Words, bytes: &[u8]) {
+    words.push(bytes.len() as u64);
+    let word = |bytes: &[u8]| bytes.iter().rev().fold(0, |word, byte| word << 8 | u64::from(*byte));
+    words.extend(bytes.chunks(8).map(word));
+}
+
+/// Takes what [`write_bytes`] wrote; `None` if that is cut.
+pub fn take_bytes(words: &mut &[u64]) -> Option<Vec<u8>> {
+    let length = take_number(words)?;
+    let written = words.split_off(..length.div_ceil(8))?;
+    let mut bytes: Vec<u8> = written.iter().flat_map(|word| word.to_le_bytes()).collect();
+    bytes.truncate(length);
+    Some(bytes)
+}
 
 /// A chunk of rows: a [`Head`] of [`HEAD`] words for each column, and the columns behind them.
 type Chunk = Box<[u64]>;
@@ -38,13 +69,24 @@ struct Head {
 
 impl<const N: usize> Default for Packed<N> {
     fn default() -> Self {
-        Self { chunks: Vec::new(), open: Vec::new(), filled: 0, desk: Desk::default() }
+        Self { chunks: Vec::new(), gone: 0, open: Vec::new(), filled: 0, desk: Desk::default() }
     }
 }
 
 impl<const N: usize> Packed<N> {
     pub fn len(&self) -> usize {
-        self.chunks.len() * CHUNK + self.filled
+        self.packed() + self.filled
+    }
+
+    /// How many rows are packed.
+    fn packed(&self) -> usize {
+        (self.gone + self.chunks.len()) * CHUNK
+    }
+
+    /// The chunk of a row, if it is packed and not handed over.
+    #[inline]
+    fn chunk(&self, index: usize) -> Option<&Chunk> {
+        self.chunks.get((index / CHUNK).wrapping_sub(self.gone))
     }
 
     pub fn push(&mut self, row: [u64; N]) {
@@ -83,23 +125,53 @@ impl<const N: usize> Packed<N> {
     /// The numbers in some columns of a row.
     #[inline]
     pub fn numbers<const M: usize>(&self, index: usize, columns: [usize; M]) -> Option<[u64; M]> {
-        if let Some(chunk) = self.chunks.get(index / CHUNK) {
+        if let Some(chunk) = self.chunk(index) {
             return Some(columns.map(|column| Head::of(chunk, column).number(chunk, index % CHUNK)));
         }
-        let row = self.open().get(index - self.chunks.len() * CHUNK)?;
+        let row = self.open().get(index.checked_sub(self.packed())?)?;
         Some(columns.map(|column| row[column]))
     }
 
     /// Puts another row in place of the one at `index`, if there is one. That packs its chunk anew.
     pub fn set(&mut self, index: usize, row: [u64; N]) {
-        if let Some(chunk) = self.chunks.get_mut(index / CHUNK) {
+        let packed = self.packed();
+        if let Some(chunk) = self.chunks.get_mut((index / CHUNK).wrapping_sub(self.gone)) {
             let mut rows = Vec::new();
             unpack(chunk, &mut rows);
             rows[index % CHUNK] = row;
             *chunk = self.desk.pack(&rows);
-        } else if let Some(open) = self.open[..self.filled].get_mut(index - self.chunks.len() * CHUNK) {
+        } else if let Some(open) =
+            index.checked_sub(packed).and_then(|at| self.open[..self.filled].get_mut(at))
+        {
             *open = row;
         }
+    }
+
+    /// Writes the chunks of rows before `end`, which are gone then, and what is not packed yet if all rows are before it.
+    pub fn hand_over(&mut self, end: usize, words: &mut Words) {
+        let chunks = (end / CHUNK).saturating_sub(self.gone).min(self.chunks.len());
+        words.push(chunks as u64);
+        for chunk in self.chunks.drain(..chunks) {
+            words.push(chunk.len() as u64);
+            words.extend_from_slice(&chunk);
+        }
+        self.gone += chunks;
+        let open = if end >= self.len() { self.open() } else { &[] };
+        words.push(open.len() as u64);
+        words.extend_from_slice(open.as_flattened());
+    }
+
+    /// Takes what another one [handed over](Self::hand_over), behind what came before it; `None` if that is cut.
+    pub fn take(&mut self, words: &mut &[u64]) -> Option<()> {
+        for _ in 0..take_number(words)? {
+            let length = take_number(words)?;
+            self.chunks.push(words.split_off(..length)?.into());
+        }
+        let open = take_number(words)?;
+        let (rows, []) = words.split_off(..open * N)?.as_chunks() else { return None };
+        self.open = rows.to_vec();
+        self.filled = open;
+        Some(())
     }
 
     /// All rows in their order; a chunk is unpacked at a time.
@@ -147,7 +219,7 @@ impl<const N: usize> Iterator for Rows<'_, N> {
             return None;
         }
         if at == 0 {
-            match self.packed.chunks.get(self.next / CHUNK) {
+            match self.packed.chunk(self.next) {
                 Some(chunk) => unpack(chunk, &mut self.chunk),
                 None => {
                     self.chunk.clear();
@@ -273,8 +345,25 @@ fn unpack<const N: usize>(chunk: &[u64], rows: &mut Vec<[u64; N]>) {
     rows.clear();
     rows.resize(CHUNK, heads.map(|head| head.base));
     for (column, head) in heads.iter().enumerate().filter(|(_, head)| head.width > 0) {
-        for (row, numbers) in rows.iter_mut().enumerate() {
-            numbers[column] = head.number(chunk, row);
+        let (list, words) = chunk[head.from..].split_at(head.listed);
+        let mut words = words.iter();
+        let mask = mask(head.width);
+        // What is left of the last word, and of how many bits that is.
+        let (mut word, mut left) = (0, 0);
+        for numbers in rows.iter_mut() {
+            let bits;
+            if left >= head.width {
+                bits = word & mask;
+                word >>= head.width;
+                left -= head.width;
+            } else {
+                let next = words.next().copied().unwrap_or_default();
+                bits = (word | next << left) & mask;
+                // A shift by all bits leaves nothing.
+                word = next.checked_shr(head.width - left).unwrap_or_default();
+                left += u64::BITS - head.width;
+            }
+            numbers[column] = if list.is_empty() { head.base + bits } else { list[bits as usize] };
         }
     }
 }
@@ -366,6 +455,33 @@ mod tests {
             let replaced = [0, 5, CHUNK - 1, CHUNK, 2 * CHUNK + 3].contains(&at);
             let expected = if replaced { [u64::MAX, 0, u64::MAX, at as u64, 1, 2] } else { row(at as u64) };
             assert_eq!(found, expected, "row {at}");
+        }
+    }
+
+    #[test]
+    fn rows_are_handed_over_while_others_come() {
+        for length in [0, 1, CHUNK - 1, CHUNK, 3 * CHUNK + 5, 9 * CHUNK] {
+            let (mut packed, mut taken) = (Packed::default(), Packed::default());
+            for n in 0..length {
+                packed.push(row(n as u64));
+                if n % 300 == 299 {
+                    let mut words = Words::new();
+                    packed.hand_over(n - 200, &mut words);
+                    assert_eq!(taken.take(&mut &words[..]), Some(()));
+                    assert_eq!(packed.get(n), Some(row(n as u64)), "what is behind them is still there");
+                    packed.set(n, row(n as u64 + 1));
+                    packed.set(n, row(n as u64));
+                }
+            }
+            let mut words = Words::new();
+            packed.hand_over(usize::MAX, &mut words);
+            for cut in 0..words.len() {
+                assert_eq!(Packed::<6>::default().take(&mut &words[..cut]), None);
+            }
+            let mut all = &words[..];
+            assert_eq!((taken.take(&mut all), all), (Some(()), &[][..]));
+            assert_eq!((packed.len(), taken.len()), (length, length));
+            assert!(taken.iter().eq((0..length as u64).map(row)));
         }
     }
 

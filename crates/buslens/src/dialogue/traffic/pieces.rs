@@ -499,7 +499,9 @@ impl Traffic {
             self.lanes[index].held = Some(held);
             return false;
         }
-        let same = row.facts.shape == held.rows[0].facts.shape;
+        // A row below others is of the same, whatever stands before the first one.
+        let below = |last: &Row| row.facts.bare && last.line + 1 == row.line;
+        let same = row.facts.shape == held.rows[0].facts.shape || held.rows.last().is_some_and(below);
         // A number that ends a sentence is no rest of a telegram.
         let Facts { rest, bare, of_leftovers, .. } = row.facts;
         let sent = row.hint != Hint::None && row.hint == held.rows[0].hint;

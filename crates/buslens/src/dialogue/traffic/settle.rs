@@ -5,7 +5,7 @@ use std::fmt;
 
 use super::collect::Traffic;
 use super::entry::Entry;
-use super::packed::Packed;
+use super::packed::{Packed, Words};
 
 /// So many telegrams are settled at a time: what is true for a log shows in as many.
 const BLOCK: usize = 1 << 14;
@@ -151,6 +151,14 @@ impl Lines {
     /// How many bytes of memory they take.
     pub fn memory(&self) -> usize {
         self.0.memory()
+    }
+
+    pub(super) fn hand_over(&mut self, end: usize, words: &mut Words) {
+        self.0.hand_over(end, words);
+    }
+
+    pub(super) fn take(&mut self, words: &mut &[u64]) -> Option<()> {
+        self.0.take(words)
     }
 
     pub(super) fn push(&mut self, (line, offset): (u32, u64)) {

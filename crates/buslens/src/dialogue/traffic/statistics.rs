@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use super::collect::Traffic;
 use super::entry::{Entry, Role};
+use super::packed::{Words, take_number, take_words};
 use crate::field::Direction;
 use crate::frame::Verdict;
 use crate::modbus::EXCEPTION;
@@ -67,9 +68,31 @@ pub(super) struct Counts {
     roles: [usize; 8],
     verdicts: [usize; 4],
     bytes_discarded: usize,
-    times: Option<(i64, i64)>,
+    /// The first and the last time before the last mark of a log that has some, and behind it.
+    before: Option<Span>,
+    times: Option<Span>,
     tallies: Vec<Tally>,
     places: Places,
+}
+
+/// The first and the last one of some times.
+pub(super) type Span = (i64, i64);
+
+/// Writes it; what is none ends before it begins.
+pub(super) fn write_times(words: &mut Words, times: Option<Span>) {
+    let (first, last) = times.unwrap_or((0, -1));
+    words.extend([first as u64, last as u64]);
+}
+
+pub(super) fn take_times(words: &mut &[u64]) -> Option<Option<Span>> {
+    let [first, last] = take_words(words)?.map(|time| time as i64);
+    Some((first <= last).then_some((first, last)))
+}
+
+/// All of both.
+pub(super) fn spanned(one: Option<Span>, other: Option<Span>) -> Option<Span> {
+    let both = one.zip(other).map(|(one, other)| (one.0.min(other.0), one.1.max(other.1)));
+    both.or(one).or(other)
 }
 
 /// The telegrams of a port, a unit and a function code as it is on the wire.
@@ -105,23 +128,40 @@ impl Counts {
     #[inline]
     pub fn add(&mut self, entry: &Entry) {
         self.count::<1>(entry);
+        if let Some(time) = entry.time().filter(|_| entry.role != Role::Discarded) {
+            let (first, last) = self.times.unwrap_or((time, time));
+            self.times = Some((first.min(time), last.max(time)));
+        }
     }
 
-    /// What was added is not counted.
+    /// What was added is not counted, but for its time.
     pub fn remove(&mut self, entry: &Entry) {
         self.count::<-1>(entry);
     }
 
-    pub fn has_times(&self) -> bool {
-        self.times.is_some()
+    /// The first and the last time of all.
+    pub fn times(&self) -> Option<Span> {
+        spanned(self.before, self.times)
     }
 
-    /// The first and the last time are these.
-    pub fn set_times(&mut self, times: Option<(i64, i64)>) {
-        self.times = times;
+    /// The file passes a mark; returns the first and the last time since the last one.
+    pub fn pass_mark(&mut self) -> Option<Span> {
+        let times = self.times.take();
+        self.before = spanned(self.before, times);
+        times
     }
 
-    /// Takes what was counted beside it.
+    /// The first and the last time since the last mark.
+    pub fn latest_times(&self) -> Option<Span> {
+        self.times
+    }
+
+    /// There are these times, too.
+    pub fn add_times(&mut self, times: Option<Span>) {
+        self.before = spanned(self.before, times);
+    }
+
+    /// Takes what was counted beside it, but for the times.
     pub fn join(&mut self, other: &Self) {
         for (own, other) in self.roles.iter_mut().zip(other.roles) {
             *own += other;
@@ -130,12 +170,7 @@ impl Counts {
             *own += other;
         }
         self.bytes_discarded += other.bytes_discarded;
-        let both = self.times.zip(other.times).map(|(own, other)| (own.0.min(other.0), own.1.max(other.1)));
-        self.times = both.or(self.times).or(other.times);
         for Tally { port, unit, function, counts } in &other.tallies {
-            if counts.iter().all(|count| *count == 0) {
-                continue;
-            }
             let place = self.places.all.len();
             let place = *self.places.all.entry(key(*port, *unit, *function)).or_insert(place);
             if place == self.tallies.len() {
@@ -152,6 +187,32 @@ impl Counts {
         }
     }
 
+    /// Writes what was counted, and of the times those since the last mark.
+    pub fn write(&self, words: &mut Words) {
+        let Self { roles, verdicts, bytes_discarded, times, tallies, .. } = self;
+        words.extend(roles.iter().chain(verdicts).chain([bytes_discarded]).map(|count| *count as u64));
+        write_times(words, *times);
+        words.push(tallies.len() as u64);
+        for Tally { port, unit, function, counts } in tallies {
+            words.push(key(*port, *unit, *function));
+            words.extend(counts.map(u64::from));
+        }
+    }
+
+    /// Takes what another one [wrote](Self::write); `None` if that is cut.
+    pub fn take(words: &mut &[u64]) -> Option<Self> {
+        let roles = take_words(words)?.map(|count| count as usize);
+        let verdicts = take_words(words)?.map(|count| count as usize);
+        let (bytes_discarded, times) = (take_number(words)?, take_times(words)?);
+        let tally = |words: &mut &[u64]| {
+            let [_, _, _, high, low, has_unit, unit, function] = take_words::<1>(words)?[0].to_be_bytes();
+            let (port, unit) = (u16::from_be_bytes([high, low]), (has_unit != 0).then_some(unit));
+            Some(Tally { port, unit, function, counts: take_words(words)?.map(|count| count as u32) })
+        };
+        let tallies = (0..take_number(words)?).map(|_| tally(words)).collect::<Option<_>>()?;
+        Some(Self { roles, verdicts, bytes_discarded, times, tallies, ..Self::default() })
+    }
+
     /// What was added as `before` is `entry` now.
     pub fn replace(&mut self, before: &Entry, entry: &Entry) {
         self.count::<-1>(before);
@@ -166,10 +227,6 @@ impl Counts {
             let bytes = BY * entry.length as isize;
             self.bytes_discarded = self.bytes_discarded.wrapping_add_signed(bytes);
             return;
-        }
-        if let Some(time) = entry.time() {
-            let (first, last) = self.times.unwrap_or((time, time));
-            self.times = Some((first.min(time), last.max(time)));
         }
         if entry.role == Role::Copy {
             return;
@@ -295,7 +352,7 @@ pub fn statistics(traffic: &Traffic) -> Statistics {
         check_failed: counts.verdicts[Verdict::Wrong as usize],
         unchecked: counts.verdicts[Verdict::Unchecked as usize],
         bytes_discarded: counts.bytes_discarded,
-        times: counts.times,
+        times: counts.times(),
         dialogs,
     }
 }
@@ -303,9 +360,12 @@ pub fn statistics(traffic: &Traffic) -> Statistics {
 /// All dialogs in their order.
 fn dialogs(traffic: &Traffic) -> Vec<Dialog> {
     let counts = traffic.entries().counts();
-    let timings = if counts.times.is_some() { timings(traffic) } else { Vec::new() };
+    let times = counts.times();
+    let timings = if times.is_some() { timings(traffic) } else { Vec::new() };
     let timings = timings.into_iter().chain(std::iter::repeat_with(Timing::default));
     let mut all: Vec<(Dialog, Timing)> = counts.tallies.iter().map(Tally::dialog).zip(timings).collect();
+    // All of them turned out to be something else.
+    all.retain(|(dialog, _)| dialog.telegrams > 0);
     all.sort_unstable_by_key(|(dialog, _)| dialog.key());
     // Answers that refuse have a function code of their own.
     all.dedup_by(|(next, later), (dialog, timing)| {
@@ -316,7 +376,7 @@ fn dialogs(traffic: &Traffic) -> Vec<Dialog> {
         }
         same
     });
-    let whole = counts.times.map_or(0, |(first, last)| last - first);
+    let whole = times.map_or(0, |(first, last)| last - first);
     all.into_iter().map(|(dialog, timing)| timing.close(whole, dialog)).collect()
 }
 
@@ -325,13 +385,17 @@ fn timings(traffic: &Traffic) -> Vec<Timing> {
     let entries = traffic.entries();
     let mut places = entries.counts().places.clone();
     let mut all = vec![Timing::default(); entries.counts().tallies.len()];
-    for entry in entries {
+    // Most requests stand just before their answers: their times need not be looked up.
+    let mut recent = [None; 8];
+    for (index, entry) in entries.iter().enumerate() {
+        recent[index % recent.len()] = entry.time();
         if entry.unanswered() {
             all[places.of(&entry)].silent.extend(entry.time());
         }
-        if let Some(request) = entry.partner().filter(|_| entry.answers())
-            && let Some(latency) = latency(entry.time(), entries.time(request))
-        {
+        let Some(request) = entry.partner().filter(|_| entry.answers()) else { continue };
+        let is_recent = (index.saturating_sub(recent.len() - 1)..index).contains(&request);
+        let asked = if is_recent { recent[request % recent.len()] } else { entries.time(request) };
+        if let Some(latency) = latency(entry.time(), asked) {
             all[places.of(&entry)].latencies.push(latency);
         }
     }

@@ -4,7 +4,8 @@ use super::Scan;
 use super::run::{DECIMAL, Kind, Numbers, PLAIN, Style, marked};
 use crate::field::Span;
 use crate::text::characters::{
-    DIGIT, DIGITS, HEX, Word, character, digits, fills_cell, hex_value, is_bits, is_digit, separator, word,
+    DIGIT, DIGITS, HEX, Word, character, decimal_escape, digits, fills_cell, has_decimal_escapes, hex_value,
+    is_bits, is_digit, separator, word,
 };
 
 /// What a token's digits are.
@@ -25,14 +26,14 @@ impl Scan {
         if word.all & HEX != 0 {
             return self.plain(line, at, word);
         }
-        let [digits @ .., b'h' | b'H'] = text else { return Token::Word };
+        let [digits @ .., b'h' | b'H'] = text.strip_suffix(b"ex").unwrap_or(text) else { return Token::Word };
         let suffixed = digits.iter().all(u8::is_ascii_hexdigit)
             // "ach" is a word.
             && (digits.iter().any(|c| is_digit(*c)) || digits.iter().all(u8::is_ascii_uppercase));
         match (suffixed, digits) {
             (true, [_] | [_, _] | [b'0', _, _]) => {
                 let from = if digits.len() == 3 { at + 1 } else { at };
-                self.push_marked(hex_value(&line[from..to - 1]), at, to);
+                self.push_marked(hex_value(&line[from..at + digits.len()]), at, to);
                 Token::Bytes(marked(Style::Suffixed))
             }
             (true, [_, _, _, _]) => {
@@ -197,6 +198,23 @@ impl Scan {
             self.join(line, at, at + length, first, marked(Style::Escaped));
             return at + length;
         }
+        // A string in brackets or none, whose numbers have three digits: `[A\003\000]`.
+        let three = |at: usize| {
+            line.get(at..at + 4).is_some_and(|it| it[0] == b'\\' && it[1..].iter().all(u8::is_ascii_digit))
+        };
+        if three(at) && three(at + 4) {
+            let ends =
+                |c: &u8| c.is_ascii_whitespace() || matches!(c, b'[' | b']' | b'(' | b')' | b'"' | b'\'');
+            let from = line[..at].iter().rposition(ends).map_or(0, |before| before + 1);
+            let to = at + line[at..].iter().position(ends).unwrap_or(line.len() - at);
+            self.close();
+            while let Some(run) = self.runs.pop_if(|run| run.span.from >= from) {
+                self.forget(run.first);
+            }
+            self.string(line, Span::new(from, to), Span::new(from, to));
+            self.close();
+            return to;
+        }
         let hex = |at: usize| match line.get(at..at + 4) {
             Some([b'\\', b'x' | b'X', digits @ ..]) if digits.iter().all(u8::is_ascii_hexdigit) => {
                 Some(hex_value(digits))
@@ -253,7 +271,9 @@ impl Scan {
             path |= line[to] >= 0xC4 && line.get(to + 1).is_some_and(|next| (0x80..0xC0).contains(next));
             if line[to] == b'\\' {
                 let next = line.get(to + 1).copied().unwrap_or_default();
-                escaped |= matches!(next, b'x' | b'X' | b'0'..=b'7' | b't' | b'n' | b'r');
+                let control = |digits: &[u8]| matches!(digits, [b'0', b'0', b'0' | b'1', ..]);
+                escaped |= matches!(next, b'x' | b'X' | b'0'..=b'9' | b't' | b'n' | b'r')
+                    || (next == b'u' && control(&line[to + 2..]));
                 path |= !ESCAPES.contains(&next);
                 to += 1;
             }
@@ -264,16 +284,33 @@ impl Scan {
             return at + 1;
         }
         self.close();
-        let first = self.hex.len();
-        let mut from = at + 1;
-        while from < to {
-            let (byte, length) = character(&line[from..to]);
-            self.push_marked(byte, from, from + length);
-            from += length;
-        }
-        self.join(line, at, to + 1, first, marked(Style::Escaped));
+        self.string(line, Span::new(at + 1, to), Span::new(at, to + 1));
         self.close();
         to + 1
+    }
+
+    /// Adds the bytes that the characters of a string stand for.
+    fn string(&mut self, line: &[u8], Span { mut from, to }: Span, whole: Span) {
+        let first = self.hex.len();
+        // What its numbers are, the bytes tell, where they can be octal and decimal.
+        let decimal_only = has_decimal_escapes(&line[from..to]);
+        let (mut fits, mut differs) = (true, false);
+        while from < to {
+            let rest = &line[from..to];
+            let (mut byte, mut length) = character(rest);
+            let mut decimal = byte;
+            if let Some((number, digits)) = decimal_escape(rest) {
+                (fits, decimal) = (fits && number < 256 && digits == length, number as u8);
+                if decimal_only {
+                    (byte, length) = (decimal, digits);
+                }
+            }
+            differs |= decimal != byte;
+            self.push(byte, decimal, from, from + length);
+            from += length;
+        }
+        let kind = Kind { decimal: fits && differs, ..marked(Style::Escaped) };
+        self.join(line, whole.from, whole.to, first, kind);
     }
 
     /// A word within bytes that is nearly one: a slip of typing, or bytes into whose line another program

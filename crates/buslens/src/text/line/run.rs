@@ -273,8 +273,9 @@ impl Scan {
         };
         let step = width + 2;
         let mut count = line[at..].chunks_exact(step).take_while(same).count();
-        // The last one may be the beginning of a word.
-        if line.get(at + count * step).is_some_and(|c| is_word(*c)) {
+        // The last one may be the beginning of a word, or in brackets with one: `[12 bytes]`.
+        let goes_on = |c: &u8| is_word(*c) || (gap[width - 1] == b'[' && *c != b']');
+        if line.get(at + count * step).is_some_and(goes_on) {
             count = count.saturating_sub(1);
         }
         if count == 0 {
@@ -443,7 +444,10 @@ impl Scan {
         (single, padded): (bool, bool),
     ) {
         let before = |back: usize| at.checked_sub(back).map(|place| line[place]);
-        let colon = before(1) == Some(b':') && !before(2).is_some_and(|c| c.is_ascii_alphanumeric());
+        // `"ts":1718012345` is a number with a name.
+        let name = |back| before(back).is_some_and(|c| c.is_ascii_alphanumeric());
+        let quoted = matches!(before(2), Some(b'"' | b'\''));
+        let colon = before(1) == Some(b':') && !name(2) && !(quoted && name(3));
         let sender = self.strong.map(|sender| (sender, Weight::Strong));
         self.is_open = true;
         self.runs.push(Run {
@@ -491,6 +495,50 @@ impl Scan {
         self.is_open = false;
     }
 
+    /// Joins numbers that are made bytes in the same way each: `(byte) 0x17, (byte) 0x03`, `Chr(23) + Chr(3)`.
+    pub(super) fn join_casts(&mut self, line: &[u8]) {
+        /// What stands between two of them is no longer.
+        const LONGEST: usize = 32;
+        let gap = |runs: &[Run], at: usize| -> Option<Span> {
+            let (before, behind) = (runs.get(at.checked_sub(1)?)?, runs.get(at)?);
+            let place = Span::new(before.span.to, behind.span.from.max(before.span.to));
+            let alike = (before.marked, before.end) == (behind.marked, behind.first)
+                && before.breaks.is_empty()
+                && behind.breaks.is_empty();
+            // Characters have their quotes themselves: `'\x17', '\x03'`.
+            let character = |run: &Run| run.style == Style::Escaped && run.len() == 1;
+            let around = || {
+                place.of(line).iter().any(|c| matches!(c, b'(' | b'{' | b'"' | b'\''))
+                    || (character(before) && character(behind))
+            };
+            (alike && place.len() <= LONGEST && around()).then_some(place)
+        };
+        let joins = |runs: &[Run], at: usize| {
+            gap(runs, at).map(|place| place.of(line)).is_some_and(|own| {
+                let same = |other| gap(runs, other).is_some_and(|place| place.of(line) == own);
+                is_cast(own) || same(at - 1) || same(at + 1)
+            })
+        };
+        if !(1..self.runs.len()).any(|at| joins(&self.runs, at)) {
+            return;
+        }
+        let runs = std::mem::take(&mut self.runs);
+        for (at, run) in runs.iter().enumerate() {
+            let both = |last: &Run| (last.hex && run.hex) || (last.decimal && run.decimal);
+            match self.runs.last_mut().filter(|last| joins(&runs, at) && both(last)) {
+                Some(last) => {
+                    (last.end, last.span.to, last.last) = (run.end, run.span.to, run.last);
+                    last.tokens += run.tokens;
+                    last.hex &= run.hex;
+                    last.decimal &= run.decimal;
+                    last.padded |= run.padded;
+                    last.separator = b',';
+                }
+                None => self.runs.push(*run),
+            }
+        }
+    }
+
     /// The open run turns out to be none.
     pub(super) fn drop_open(&mut self) {
         let Some(run) = self.runs.pop_if(|_| self.is_open) else { return };
@@ -504,4 +552,11 @@ impl Scan {
         self.decimal.truncate(first);
         self.places.truncate(first);
     }
+}
+
+/// Whether a comma and the name of a type in brackets stand between two numbers: `, (byte)`.
+fn is_cast(gap: &[u8]) -> bool {
+    let behind = gap.strip_prefix(b",").map(<[u8]>::trim_ascii);
+    let name = behind.and_then(|it| it.strip_prefix(b"(")?.strip_suffix(b")"));
+    name.is_some_and(|name| !name.is_empty() && name.iter().all(|c| c.is_ascii_alphanumeric() || *c == b'_'))
 }

@@ -41,7 +41,7 @@ pub use pictures::{Bucket, Held, Point, Timeline};
 #[cfg(feature = "captures")]
 pub use redact::{Hidden, Kind, Redacted, Replaced};
 pub use seen::{Seen, seen};
-pub use slices::{Division, join};
+pub use slices::{Division, Slice};
 pub use story::time_text;
 
 use slices::Passed;
@@ -124,8 +124,6 @@ pub struct Log {
     lines: u32,
     taken: u64,
     full: bool,
-    /// All of it was read.
-    finished: bool,
     /// Of a log that can be read in slices.
     passed: Option<Passed>,
     /// A file in UTF-16, as it would be in UTF-8.
@@ -232,6 +230,10 @@ pub const SMALL: u64 = 32 << 20;
 /// just enough left to show what was read.
 const SPARE: usize = 48 << 20;
 
+fn has_room() -> bool {
+    Vec::<u8>::new().try_reserve_exact(SPARE).is_ok()
+}
+
 impl Log {
     /// Begins to read a file of `size` bytes by its beginning, which is to be pushed all the same.
     pub fn open(beginning: &[u8], size: u64, reading: &Reading, options: Options) -> Result<Self, Refusal> {
@@ -303,7 +305,6 @@ impl Log {
             lines: 0,
             taken: 0,
             full: false,
-            finished: false,
             passed: None,
             transcoded,
             fault: None,
@@ -350,7 +351,7 @@ impl Log {
     /// Takes a part with no mark in it.
     fn take_part(&mut self, part: &[u8]) -> bool {
         let Self { input, traffic, ports, full, taken, transcoded, .. } = self;
-        let mut room = *taken <= SMALL || Vec::<u8>::new().try_reserve_exact(SPARE).is_ok();
+        let mut room = *taken <= SMALL || has_room();
         let mut take = |event: Event<'_>| room &= self::take(event, traffic, ports);
         match input {
             Way::Text(reader) => reader.push(part, &mut take),
@@ -409,6 +410,12 @@ impl Log {
 
     /// The file ends, or is not read any further.
     pub fn finish(&mut self) {
+        self.end();
+        self.look();
+    }
+
+    /// The same, but nothing is counted.
+    fn end(&mut self) {
         let Self { input, traffic, ports, transcoded, .. } = self;
         let mut take = |event: Event<'_>| _ = self::take(event, traffic, ports);
         if let Way::Utf16 { reader, encoding, odd } = input {
@@ -439,8 +446,6 @@ impl Log {
             }
         }
         self.traffic.finish();
-        self.finished = true;
-        self.look();
     }
 
     /// How many directions of connections carry no telegrams.

@@ -10,8 +10,8 @@
 use std::hash::{DefaultHasher, Hash};
 use std::ops::Range;
 
-use super::{Log, Source, Way};
-use crate::dialogue::traffic::Place;
+use super::{Log, Way, has_room};
+use crate::dialogue::traffic::{Found, Place, Sums, take_bytes, write_bytes};
 
 /// Where a log has its marks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,11 +55,6 @@ impl Passed {
         let Division { beginning, step } = self.division;
         (taken / step + 1).max(beginning.div_ceil(step)) * step
     }
-
-    fn at(&self, at: u64) -> Option<&Place> {
-        let place = self.places.binary_search_by_key(&at, |(at, _)| *at).ok()?;
-        Some(&self.places[place].1)
-    }
 }
 
 impl Log {
@@ -73,8 +68,7 @@ impl Log {
 
     /// How many bytes of what is to be pushed come before the next mark, or end there.
     pub(super) fn before_mark(&self) -> usize {
-        let next = self.passed.as_ref().map(|passed| passed.next(self.taken) - self.taken);
-        next.and_then(|bytes| usize::try_from(bytes).ok()).unwrap_or(usize::MAX)
+        usize::try_from(self.next_mark() - self.taken).unwrap_or(usize::MAX)
     }
 
     /// The file passes a mark.
@@ -102,19 +96,22 @@ impl Log {
         self.passed.as_ref()?.settled
     }
 
-    /// The slices of a file of so many bytes, at most `most`, each of at least `least` bytes. The first one begins
-    /// where the log is now. There is only one before [`divisible_from`](Self::divisible_from) is known.
+    /// The slices of a file of so many bytes, at most `most`, each of about `least` bytes at least. The first one begins
+    /// where the log is now, and is longer: whoever reads another one reads the beginning, too. There is only one before
+    /// [`divisible_from`](Self::divisible_from) is known.
     pub fn slices(&self, size: u64, most: usize, least: u64) -> Vec<Range<u64>> {
         let left = size.saturating_sub(self.taken);
         let most = if self.divisible_from().is_some() { most as u64 } else { 1 };
         let count = most.min(left / least.max(1)).max(1);
         let step = self.passed.as_ref().map_or(1, |passed| passed.division.step);
+        let again = self.taken + step;
+        let share = (left + (count - 1) * again) / count;
         let cut = |n: u64| match n {
             0 => self.taken,
             n if n == count => size,
-            n => ((u128::from(left) * u128::from(n) / u128::from(count)) as u64 + self.taken)
-                .next_multiple_of(step)
-                .min(size),
+            n => {
+                (self.taken + share + (n - 1) * share.saturating_sub(again)).next_multiple_of(step).min(size)
+            }
         };
         (0..count).map(|n| cut(n)..cut(n + 1)).filter(|slice| !slice.is_empty()).collect()
     }
@@ -124,6 +121,8 @@ impl Log {
     pub fn jump(&mut self, slice: u64) -> u64 {
         let Some(passed) = &self.passed else { return self.taken };
         let from = slice.saturating_sub(passed.division.step).max(self.taken);
+        self.traffic.leave_beginning();
+        self.passed.iter_mut().for_each(|passed| passed.places.clear());
         self.go_on_at(from, self.lines);
         from
     }
@@ -142,94 +141,138 @@ impl Log {
     }
 }
 
-/// Joins what the readers of a file's slices found, in their order: `whole` has read the first one, and the last one
-/// of all is [finished](Log::finish). What has to be read once more comes from `source` of `size` bytes.
-pub fn join(mut whole: Log, slices: Vec<Log>, source: &dyn Source, size: u64) -> Log {
-    let mut latest: Option<Joined> = None;
-    for next in slices {
-        loop {
-            let last = latest.as_mut().map_or(&mut whole, |latest| &mut latest.log);
-            if let Some(from) = last.meets(&next) {
-                let from = from.clone();
-                let here = match latest.take() {
-                    Some(latest) => latest.hand_over(&mut whole),
-                    None => whole.latest_place(),
-                };
-                latest = Some(Joined { log: next, from, here });
-                break;
-            }
-            // It has read all of the next one by itself.
-            if last.taken >= next.taken || !last.read_on(source, size) {
-                break;
-            }
+/// A slice as its reader handed it over, piece by piece.
+#[derive(Debug, Default)]
+pub struct Slice {
+    found: Found,
+    marks: Vec<(u64, Place)>,
+    /// How many bytes of the file, telegrams and lines are read.
+    taken: u64,
+    telegrams: u64,
+    lines: u32,
+    /// Once it is read to its end; with the names of ports.
+    end: Option<(Sums, Vec<String>)>,
+}
+
+impl Slice {
+    /// Takes the next piece that a reader [handed over](Log::hand_over); `false` if there is no memory for it, or if it
+    /// is cut.
+    pub fn take(&mut self, piece: &[u64]) -> bool {
+        has_room() && self.take_words(piece).is_some()
+    }
+
+    fn take_words(&mut self, mut words: &[u64]) -> Option<()> {
+        let [taken, telegrams, lines, marks, ends] = *words.split_off(..5)? else { return None };
+        (self.taken, self.telegrams, self.lines) = (taken, telegrams, lines as u32);
+        for _ in 0..marks {
+            let at = *words.split_off_first()?;
+            self.marks.push((at, Place::take(&mut words)?));
         }
-    }
-    let last = latest.as_mut().map_or(&mut whole, |latest| &mut latest.log);
-    if !last.finished {
-        while last.taken < size && last.read_on(source, size) {}
-        last.finish();
-    }
-    if let Some(latest) = latest {
-        latest.finish(&mut whole);
-    }
-    whole
-}
-
-/// A reader whose slice goes on with what is joined already.
-struct Joined {
-    log: Log,
-    /// The mark from which on its telegrams count.
-    from: Place,
-    /// The same one in the numbers of the whole.
-    here: Place,
-}
-
-impl Joined {
-    /// Gives what it has to the whole; returns where that ends.
-    fn hand_over(mut self, whole: &mut Log) -> Place {
-        let to = self.log.latest_place();
-        whole.traffic.adopt(&self.here, &mut self.log.traffic, &self.from, Some(&to));
-        whole.take_over(&self.log);
-        self.here.moved(&self.from, &to)
+        self.found.take(&mut words)?;
+        if ends > 0 {
+            let sums = Sums::take(&mut words)?;
+            let mut ports = Vec::new();
+            while !words.is_empty() {
+                ports.push(String::from_utf8(take_bytes(&mut words)?).ok()?);
+            }
+            self.end = Some((sums, ports));
+        }
+        Some(())
     }
 
-    /// The same at the end of the file.
-    fn finish(mut self, whole: &mut Log) {
-        let lines = match &self.log.input {
-            Way::Text(reader) => self.here.lines_behind(&self.from, reader.lines()),
-            _ => 0,
-        };
-        whole.traffic.adopt(&self.here, &mut self.log.traffic, &self.from, None);
-        whole.take_over(&self.log);
-        whole.go_on_at(self.log.taken, lines);
-        whole.finish();
+    /// Whether it is read to its end.
+    pub fn is_whole(&self) -> bool {
+        self.end.is_some()
+    }
+
+    /// Up to where in the file it is read.
+    pub fn taken(&self) -> u64 {
+        self.taken
+    }
+
+    /// How many telegrams are read.
+    pub fn telegrams(&self) -> u64 {
+        self.telegrams
     }
 }
 
 impl Log {
-    /// Where `next` was alike with this one at the mark where this one is now.
-    fn meets<'a>(&self, next: &'a Self) -> Option<&'a Place> {
-        let own = self.passed.as_ref()?.at(self.taken)?;
-        let other = next.passed.as_ref()?.at(self.taken)?;
-        self.traffic.is_alike(own, &next.traffic, other).then_some(other)
+    /// Hands over what was found since the last time, which is not in this log any more then, as words that can go to
+    /// another thread, or to another worker.
+    pub fn hand_over(&mut self) -> Vec<u64> {
+        self.piece(false)
     }
 
-    fn latest_place(&self) -> Place {
-        let place = self.passed.as_ref().and_then(|passed| passed.places.last());
-        place.map(|(_, place)| place.clone()).unwrap_or_default()
+    /// The slice ends here, of a file of so many bytes: hands over all that is left.
+    pub fn hand_over_rest(mut self, size: u64) -> Vec<u64> {
+        if self.taken == size {
+            self.end();
+        }
+        let mut words = self.piece(true);
+        self.traffic.write_sums(&mut words);
+        self.ports.names.iter().for_each(|name| write_bytes(&mut words, name.as_bytes()));
+        words
     }
 
-    /// Reads up to the next mark; `false` if no more can be kept.
-    fn read_on(&mut self, source: &dyn Source, size: u64) -> bool {
-        let left = usize::try_from(size.saturating_sub(self.taken)).unwrap_or(usize::MAX);
-        let part = source.read(self.taken, self.before_mark().min(left));
-        !part.is_empty() && self.push(&part)
+    fn piece(&mut self, ends: bool) -> Vec<u64> {
+        let Self { passed, input, traffic, taken, .. } = self;
+        let lines = if let Way::Text(reader) = input { reader.lines() } else { 0 };
+        let marks = passed.as_mut().map(|passed| std::mem::take(&mut passed.places)).unwrap_or_default();
+        let telegrams = traffic.entries().len() as u64;
+        let mut words = vec![*taken, telegrams, lines.into(), marks.len() as u64, ends.into()];
+        for (at, place) in &marks {
+            words.push(*at);
+            place.write(&mut words);
+        }
+        // Before the first mark nothing is settled for good.
+        let first = Place::default();
+        let latest = marks.last().map_or(&first, |(_, place)| place);
+        traffic.hand_over(if ends { None } else { Some(latest) }, &mut words);
+        words
     }
 
-    /// What is not of the traffic, of a log whose telegrams were taken over.
-    fn take_over(&mut self, other: &Self) {
-        self.full |= other.full;
-        self.taken = other.taken;
-        self.ports.clone_from(&other.ports);
+    /// Takes over what other readers found of a file of so many bytes, in the order of their slices, if that goes on at the
+    /// mark where this log is now, and all of it up to the end of the file: there is nothing more to read then. Else this
+    /// log is to read on up to the [next mark](Self::next_mark), where the slices may be alike with it.
+    pub fn join(&mut self, slices: &mut Vec<Slice>, size: u64) -> bool {
+        let Some((mut here, marks)) = self.follow(slices, size) else { return false };
+        for (slice, mark) in slices.drain(..).zip(marks) {
+            let Slice { found, marks, taken, lines, end: Some((sums, ports)), .. } = slice else {
+                continue;
+            };
+            let marks = &marks[mark..];
+            let ([(_, from), ..], [.., (_, to)]) = (marks, marks) else { continue };
+            let lines = here.lines_behind(from, lines);
+            self.traffic.adopt(&here, found, sums, marks);
+            self.ports.names = ports;
+            self.go_on_at(taken, lines);
+            here = here.moved(from, to);
+        }
+        true
+    }
+
+    /// Leaves out the slices that this log has read itself, or that are not whole; tells where this log is, and at which of
+    /// its marks each of the others goes on with what is before it, if all of them do.
+    fn follow(&self, slices: &mut Vec<Slice>, size: u64) -> Option<(Place, Vec<usize>)> {
+        slices.retain(|slice| slice.is_whole() && slice.taken > self.taken);
+        let dated = |slice: &Slice| slice.end.as_ref().is_some_and(|(sums, _)| sums.is_dated());
+        let dated = self.traffic.is_dated() || slices.iter().any(dated);
+        let first = self.passed.as_ref()?.places.last().filter(|(at, _)| *at == self.taken)?;
+        let mut last = first;
+        let mut marks = Vec::new();
+        for slice in &*slices {
+            let mark = slice.marks.binary_search_by_key(&last.0, |(at, _)| *at).ok()?;
+            if !last.1.is_alike(&slice.marks[mark].1, dated) {
+                return None;
+            }
+            marks.push(mark);
+            last = slice.marks.last()?;
+        }
+        (slices.last()?.taken == size).then(|| (first.1.clone(), marks))
+    }
+
+    /// How many bytes of the file come before the next mark.
+    pub fn next_mark(&self) -> u64 {
+        self.passed.as_ref().map_or(u64::MAX, |passed| passed.next(self.taken))
     }
 }

@@ -294,7 +294,7 @@ async fn who_hosts_the_page_can_take_it_back() -> Result {
     let site = Site::serve(files.clone());
     let page = Page::open_address(&site.address(""), DESKTOP, false).await?;
     page.wait_for(KEPT).await?;
-    let farewell = include_bytes!("../../bundle/src/offline/farewell.js").to_vec();
+    let farewell = include_bytes!("../../../bundle/src/offline/farewell.js").to_vec();
     files.insert("service-worker.js".to_owned(), farewell);
     site.put(files);
     look_for_updates(&page).await?;

@@ -3,7 +3,7 @@
 use page_tests::{DESKTOP, PHONE, Page, Result};
 
 /// The example that has a little of everything: a silent unit, bytes that are swallowed, slow answers.
-const LOG: &str = include_str!("../../src/views/read/example.log");
+const LOG: &str = include_str!("../../../src/views/read/example.log");
 
 /// Opens a file with this content.
 async fn open(page: &Page, name: &str, content: &str) -> Result {

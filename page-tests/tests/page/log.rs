@@ -6,7 +6,7 @@ use std::io::Write as _;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use page_tests::{DESKTOP, PHONE, Page, Result, chromium_only};
+use page_tests::{DESKTOP, PHONE, Page, Result, Site, changed, chromium_only, dist};
 use serde_json::json;
 use thirtyfour::prelude::*;
 
@@ -259,6 +259,58 @@ async fn a_large_log_does_not_block_the_page() -> Result {
     let last = last.as_str().and_then(|text| text.parse::<usize>().ok()).expect("a number") - 2;
     page.wait_for(&format!("#row-{last}[aria-selected=true]")).await?;
     page.close().await
+}
+
+/// What the page says of a large log that so many workers may read, its rows around each place where slices may meet
+/// included; and how many read it.
+async fn said_by(page: Page, workers: usize, path: &str, text: &str) -> Result<(Vec<String>, usize)> {
+    page.value(&format!("Object.defineProperty(navigator, 'hardwareConcurrency', {{ value: {workers} }})"))
+        .await?;
+    let start = Instant::now();
+    open(&page, path).await?;
+    let mut most = 0;
+    while page.count(".reading-on").await? > 0 {
+        most = most.max(page.workers().unwrap_or(workers));
+        tokio::time::sleep(Duration::from_millis(50)).await;
+    }
+    println!("{:.0} MB read in {:?} by {most} at once", text.len() as f64 / 1e6, start.elapsed());
+    page.wait_for(".findings button").await?;
+    page.wait_for(&format!("[aria-rowcount='{}']", text.lines().count() + 1)).await?;
+    let mut said =
+        vec![page.text(".story").await?, page.text(".file-bar .soft").await?, page.text(COUNT).await?];
+    // Everywhere between two of these a telegram goes on behind the place.
+    for megabytes in [1, 16, 43, 44, 45, 46, 47, 48, 49, 50, 51, 77] {
+        let row = text.as_bytes()[..megabytes << 20].iter().filter(|byte| **byte == b'\n').count();
+        page.value(&format!(
+            "const list = document.querySelector('.list'); const high = document.querySelector('.space').offsetHeight; \
+             list.scrollTop = {row} / (list.ariaRowCount - 1) * high"
+        ))
+        .await?;
+        page.wait_for(&format!("#row-{row}")).await?;
+        said.push(page.text(".rows").await?);
+    }
+    Ok((said, most))
+}
+
+/// Several workers read a log, each a slice of it: the page says what it says when one reads all of it, also when one
+/// of them fails.
+#[tokio::test(flavor = "multi_thread")]
+async fn several_workers_read_one_log() -> Result {
+    let folder = tempfile::tempdir()?;
+    let text = log(800_000);
+    let path = file(folder.path(), "large.log", text.as_bytes());
+    let (alone, workers) = said_by(Page::open(DESKTOP, false).await?, 1, &path, &text).await?;
+    assert_eq!(workers, 1);
+    let (together, workers) = said_by(Page::open(DESKTOP, false).await?, 2, &path, &text).await?;
+    assert_eq!((together, workers), (alone.clone(), 2));
+    // A worker finds no script for another one.
+    let gone = "new Worker(\"document\" in globalThis ? import.meta.url : \"gone.js\"";
+    let site = Site::serve(changed(dist(), "boot", "new Worker(import.meta.url", gone));
+    let page = Page::open_address(&site.address(""), DESKTOP, false).await?;
+    let (without, _) = said_by(page, 2, &path, &text).await?;
+    assert_eq!(without, alone);
+    assert!(site.asked().iter().any(|path| path.ends_with("gone.js")), "it was tried");
+    Ok(())
 }
 
 /// Twenty logs of 20 MB one after another: what the page and its worker had for one is there for the next.

@@ -292,7 +292,7 @@ async fn units_have_devices_of_their_own() -> Result {
 #[tokio::test(flavor = "multi_thread")]
 async fn a_log_proposes_the_devices_of_its_units() -> Result {
     let page = Page::open(DESKTOP, false).await?;
-    page.paste(include_str!("../../src/views/read/example.log")).await?;
+    page.paste(include_str!("../../../src/views/read/example.log")).await?;
     page.until(".proposed", "Memograph").await?;
     page.view("devices").await?;
     page.until(".units .why", "Unit 1 reads well as Endress+Hauser Memograph M RSG45").await?;

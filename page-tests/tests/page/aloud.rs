@@ -1,4 +1,4 @@
-//! The page read aloud: what a screen reader has of it, and what it says at each key. `tests/aloud` has it as
+//! The page read aloud: what a screen reader has of it, and what it says at each key. `tests/page/aloud` has it as
 //! text, a file for each state; `BLESS=1 cargo xtask test page aloud` writes them. Read them with your eyes shut.
 
 use std::path::Path;
@@ -12,7 +12,7 @@ const PAIR: &str = "01 03 00 C8 00 03 84 35\n01 03 06 00 08 42 A4 F1 DE B0 F8";
 
 /// Fails where a file says something else.
 fn compare(name: &str, said: &str) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/aloud").join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/page/aloud").join(name);
     if std::env::var_os("BLESS").is_some() {
         std::fs::write(&path, said).expect("the file can be written");
     }

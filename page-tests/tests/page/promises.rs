@@ -113,78 +113,92 @@ async fn the_console_stays_empty() -> Result {
     page.close().await
 }
 
-/// A thousand actions in each view, the same in each run: clicks, keys, entries, choices, scrolling, back
+/// A thousand actions in a view, the same in each run: clicks, keys, entries, choices, scrolling, back
 /// and forward. Nothing ends the page, and nothing comes to the console.
-#[tokio::test(flavor = "multi_thread")]
-async fn a_thousand_actions_in_each_view_break_nothing() -> Result {
-    let actions = r"
-        const [seed, count, done] = arguments;
-        let state = seed;
-        const random = (n) => { state = (Math.imul(state, 1664525) + 1013904223) >>> 0; return Math.floor(state / 4294967296 * n); };
-        const pick = (all) => all[random(all.length)];
-        const texts = ['01 03 00 C8 00 03 84 35', '01 03 06 00 80 42 A4 F1 DE B0 F8', '71 00 22 34 00', ':0106000005', '7', '-1', 'x',
-          '0x1F', '', '99999', '05 10 0C 10 00 04 08 06 02 31', '00 01 00 00 00 06 01 06 00 00', 'write channel 6', '01 03\n'.repeat(20)];
-        const keys = ['ArrowDown', 'ArrowUp', 'ArrowLeft', 'ArrowRight', 'Home', 'End', 'Enter', 'Escape', ' ', 'PageDown', 'Tab', '?', '/'];
-        const here = location.hash.split('?')[0];
-        // What leaves the page, or opens a window of the browser, is no part of it.
-        window.print = () => {}; HTMLAnchorElement.prototype.click = function () { if (!this.download) this.dispatchEvent(new MouseEvent('click', { bubbles: true, cancelable: true })); };
-        const press = HTMLInputElement.prototype.click; HTMLInputElement.prototype.click = function () { if (this.type != 'file') press.call(this); };
-        navigator.clipboard.writeText = () => Promise.resolve();
-        let at = 0;
-        const act = () => {
-          if (document.querySelector('.ended')) return done('ended after ' + at);
-          if (at++ == count) return done('');
-          const kind = random(20);
-          const within = [...document.querySelectorAll('main *, .top *, .toast *')];
-          if (kind < 8) {
-            const all = within.filter((e) => e.matches('button, summary, a[href^=\'#\'], label:not(:has([type=file])), [role=row], td'));
-            if (all.length) pick(all).dispatchEvent(new MouseEvent('click', { bubbles: true, cancelable: true, detail: 1 }));
-          } else if (kind < 12) {
-            const all = within.filter((e) => e.matches('textarea, input:not([type=file])'));
-            if (all.length) { const field = pick(all);
-              if (field.type == 'checkbox' || field.type == 'radio') field.click(); else {
-                // Browsers take nothing else there.
-                const numbers = field.type == 'range' || field.type == 'number';
-                const text = numbers ? String(random(50)) : pick(texts);
-                field.focus(); field.value = text; field.dispatchEvent(new Event('input', { bubbles: true }));
-                field.dispatchEvent(new Event('change', { bubbles: true })); } }
-          } else if (kind < 14) {
-            const all = within.filter((e) => e.matches('select'));
-            if (all.length) { const list = pick(all); list.selectedIndex = random(list.options.length); list.dispatchEvent(new Event('change', { bubbles: true })); }
-          } else if (kind < 17) {
-            const all = within.filter((e) => e.matches('[tabindex=\'0\'], button, input, textarea'));
-            if (all.length) { const e = pick(all); e.focus(); e.dispatchEvent(new KeyboardEvent('keydown', { key: pick(keys), bubbles: true, cancelable: true })); }
-          } else if (kind == 17) {
-            for (const e of within.filter((e) => e.scrollHeight > e.clientHeight + 40).slice(0, 3)) e.scrollTop = random(e.scrollHeight);
-          } else if (kind == 18) {
-            const e = pick(within); if (e) for (const name of ['pointerenter', 'pointerover', 'pointerleave']) e.dispatchEvent(new PointerEvent(name, { bubbles: true }));
-          } else if (random(4) == 0) {
-            history.go(random(2) ? 1 : -1);
-          }
-          // Who wandered off comes back.
-          if (at % 25 == 0 && location.hash.split('?')[0] != here) location.hash = here;
-          setTimeout(act, at % 10 ? 0 : 20);
-        };
-        act();";
-    let mut handles = Vec::new();
-    let learn = ["practice.1.decode.2.K7QM.1", "telegrams", "reference"];
-    let views = VIEWS.map(str::to_owned).into_iter();
-    let views = views.chain(learn.map(|place| format!("#/learn?place={place}")));
-    for (seed, view) in (1_u32..).zip(views) {
-        let page = Page::open(DESKTOP, false).await?;
-        page.driver.set_script_timeout(std::time::Duration::from_secs(300)).await?;
-        page.paste(ALL_SORTS).await?;
-        page.fragment().await?;
-        page.driver.execute("location.hash = arguments[0]", vec![json!(&view)]).await?;
-        page.fragment().await?;
-        let ended = page.driver.execute_async(actions, vec![json!(seed * 7919), json!(1000)]).await?;
-        handles.push((view, ended.json().clone(), page.console().await?));
-        page.driver.quit().await?;
-    }
-    for (view, ended, console) in handles {
-        assert_eq!((ended, console), (json!(""), Vec::new()), "{view}");
-    }
-    Ok(())
+const ACTIONS: &str = r"
+    const [seed, count, done] = arguments;
+    let state = seed;
+    const random = (n) => { state = (Math.imul(state, 1664525) + 1013904223) >>> 0; return Math.floor(state / 4294967296 * n); };
+    const pick = (all) => all[random(all.length)];
+    const texts = ['01 03 00 C8 00 03 84 35', '01 03 06 00 80 42 A4 F1 DE B0 F8', '71 00 22 34 00', ':0106000005', '7', '-1', 'x',
+      '0x1F', '', '99999', '05 10 0C 10 00 04 08 06 02 31', '00 01 00 00 00 06 01 06 00 00', 'write channel 6', '01 03\n'.repeat(20)];
+    const keys = ['ArrowDown', 'ArrowUp', 'ArrowLeft', 'ArrowRight', 'Home', 'End', 'Enter', 'Escape', ' ', 'PageDown', 'Tab', '?', '/'];
+    const here = location.hash.split('?')[0];
+    // What leaves the page, or opens a window of the browser, is no part of it.
+    window.print = () => {}; HTMLAnchorElement.prototype.click = function () { if (!this.download) this.dispatchEvent(new MouseEvent('click', { bubbles: true, cancelable: true })); };
+    const press = HTMLInputElement.prototype.click; HTMLInputElement.prototype.click = function () { if (this.type != 'file') press.call(this); };
+    navigator.clipboard.writeText = () => Promise.resolve();
+    let at = 0;
+    const act = () => {
+      if (document.querySelector('.ended')) return done('ended after ' + at);
+      if (at++ == count) return done('');
+      const kind = random(20);
+      const within = [...document.querySelectorAll('main *, .top *, .toast *')];
+      if (kind < 8) {
+        const all = within.filter((e) => e.matches('button, summary, a[href^=\'#\'], label:not(:has([type=file])), [role=row], td'));
+        if (all.length) pick(all).dispatchEvent(new MouseEvent('click', { bubbles: true, cancelable: true, detail: 1 }));
+      } else if (kind < 12) {
+        const all = within.filter((e) => e.matches('textarea, input:not([type=file])'));
+        if (all.length) { const field = pick(all);
+          if (field.type == 'checkbox' || field.type == 'radio') field.click(); else {
+            // Browsers take nothing else there.
+            const numbers = field.type == 'range' || field.type == 'number';
+            const text = numbers ? String(random(50)) : pick(texts);
+            field.focus(); field.value = text; field.dispatchEvent(new Event('input', { bubbles: true }));
+            field.dispatchEvent(new Event('change', { bubbles: true })); } }
+      } else if (kind < 14) {
+        const all = within.filter((e) => e.matches('select'));
+        if (all.length) { const list = pick(all); list.selectedIndex = random(list.options.length); list.dispatchEvent(new Event('change', { bubbles: true })); }
+      } else if (kind < 17) {
+        const all = within.filter((e) => e.matches('[tabindex=\'0\'], button, input, textarea'));
+        if (all.length) { const e = pick(all); e.focus(); e.dispatchEvent(new KeyboardEvent('keydown', { key: pick(keys), bubbles: true, cancelable: true })); }
+      } else if (kind == 17) {
+        for (const e of within.filter((e) => e.scrollHeight > e.clientHeight + 40).slice(0, 3)) e.scrollTop = random(e.scrollHeight);
+      } else if (kind == 18) {
+        const e = pick(within); if (e) for (const name of ['pointerenter', 'pointerover', 'pointerleave']) e.dispatchEvent(new PointerEvent(name, { bubbles: true }));
+      } else if (random(4) == 0) {
+        history.go(random(2) ? 1 : -1);
+      }
+      // Who wandered off comes back.
+      if (at % 25 == 0 && location.hash.split('?')[0] != here) location.hash = here;
+      setTimeout(act, at % 10 ? 0 : 20);
+    };
+    act();";
+
+async fn a_thousand_actions_break_nothing(view: &str, seed: u32) -> Result {
+    let page = Page::open(DESKTOP, false).await?;
+    page.driver.set_script_timeout(std::time::Duration::from_secs(300)).await?;
+    page.paste(ALL_SORTS).await?;
+    page.fragment().await?;
+    page.driver.execute("location.hash = arguments[0]", vec![json!(view)]).await?;
+    page.fragment().await?;
+    let ended = page.driver.execute_async(ACTIONS, vec![json!(seed * 7919), json!(1000)]).await?;
+    assert_eq!(ended.json(), &json!(""), "{view}");
+    page.close().await
+}
+
+/// A test for each, so that they run side by side.
+macro_rules! a_thousand_actions_in {
+    ($($name:ident: $view:literal, $seed:literal;)*) => {
+        mod a_thousand_actions_break_nothing_in {
+            $(#[tokio::test(flavor = "multi_thread")]
+            async fn $name() -> super::Result {
+                super::a_thousand_actions_break_nothing($view, $seed).await
+            })*
+        }
+    };
+}
+
+a_thousand_actions_in! {
+    read: "#/read", 1;
+    build: "#/build", 2;
+    check: "#/check", 3;
+    devices: "#/devices", 4;
+    lessons: "#/learn", 5;
+    sheet: "#/sheet", 6;
+    practice: "#/learn?place=practice.1.decode.2.K7QM.1", 7;
+    telegrams: "#/learn?place=telegrams", 8;
+    reference: "#/learn?place=reference", 9;
 }
 
 #[tokio::test(flavor = "multi_thread")]
