@@ -414,9 +414,9 @@ mod tests {
             pauses: 300 + 3 * by,
             line: 400 + 4 * by as u32,
             days: 500 + 5 * by as i64,
-            times: Some((by as i64, 2 * by as i64)),
             foreign_protocols: [600 + 6 * by as u32; FOREIGN.len()],
             open: vec![by],
+            times: Some((-700 - by as i64, 800 + by as i64)),
             state: by as u64,
         }
     }
@@ -424,8 +424,35 @@ mod tests {
     #[test]
     fn a_place_in_the_numbers_of_another_reader() {
         // From 10 to 30 of the other one it is as far as from 50 to 70 of the own.
-        let moved = place(50).moved(&place(10), &place(30));
-        assert_eq!(moved, Place { open: vec![30], times: Some((30, 60)), state: 30, ..place(70) });
+        let Place { open, times, state, .. } = place(30);
+        assert_eq!(place(50).moved(&place(10), &place(30)), Place { open, times, state, ..place(70) });
         assert_eq!(place(50).lines_behind(&place(10), 1000), 1160);
+    }
+
+    #[test]
+    fn places_and_sums_come_back_from_words() {
+        let counts = |words: &Words| Sums::take(&mut &words[..]).map(|sums| format!("{sums:?}"));
+        for times in [None, Some((-5, -5)), Some((-9, 1 << 60))] {
+            let place = Place { times, open: vec![3, 70_000, 0], ..place(40) };
+            let mut words = Words::new();
+            place.write(&mut words);
+            assert_eq!(Place::take(&mut &words[..]), Some(place));
+            for cut in 0..words.len() {
+                assert_eq!(Place::take(&mut &words[..cut]), None);
+            }
+        }
+        let mut traffic = Traffic::new(&crate::frame::modbus_rtu::PROTOCOL, &Default::default());
+        (traffic.pauses, traffic.dated) = (vec![(7, u32::MAX), (u32::MAX - 1, 0)], true);
+        traffic.foreign_protocols = [9; FOREIGN.len()];
+        let mut words = Words::new();
+        traffic.write_sums(&mut words);
+        let sums = Sums {
+            counts: Counts::default(),
+            pauses: traffic.pauses,
+            foreign_protocols: [9; FOREIGN.len()],
+            dated: true,
+        };
+        assert_eq!(counts(&words), Some(format!("{sums:?}")));
+        assert_eq!(counts(&words[..words.len() - 1].to_vec()), None);
     }
 }
