@@ -9,7 +9,7 @@ use buslens::field::{Direction, Span};
 use buslens::tool::digest::Digest;
 use buslens::tool::link::{keep_settings, kept_settings};
 use buslens::tool::log::{
-    Excerpt, Filter, Held, Hidden, Input, Lanes, Marks, Numbers, Overview, Piece, Place, Reading, Redacted,
+    Excerpt, Filter, Held, Hidden, Input, Lanes, Marks, Numbers, Overview, Place, Reading, Redacted,
     Replaced, Row, Seen,
 };
 use buslens::tool::{Options, Profile, Proposal, Protocol};
@@ -212,7 +212,7 @@ impl Export {
 }
 
 /// What the page is told.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Answer {
     /// The worker can hear.
     Hello,
@@ -258,8 +258,8 @@ pub enum Answer {
     PassedOn(Passed),
     /// A file comes beside it.
     Exported(Export),
-    /// What was found in a slice since the last one; most of it comes beside it.
-    Found(Box<Piece>),
+    /// What was found in a slice since the last one comes beside it.
+    Found,
 }
 
 impl Passed {

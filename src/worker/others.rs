@@ -7,7 +7,7 @@ use web_sys::{Blob, Event, MessageEvent, Worker};
 
 use super::messages::{Answer, Request, Share};
 use super::{mail, serve, start_worker};
-use buslens::tool::log::{Piece, Slice};
+use buslens::tool::log::Slice;
 
 /// A worker with its slice.
 pub struct Other {
@@ -15,9 +15,6 @@ pub struct Other {
     /// What it is to read: it is told when it can hear.
     share: JsValue,
     from: u64,
-    /// How far it is, and how many telegrams it found.
-    at: u64,
-    telegrams: usize,
     /// `None` if it failed.
     slice: Option<Slice>,
     /// They live as long as it does.
@@ -49,27 +46,26 @@ impl Other {
         worker.set_onmessage(Some(hear.as_ref().unchecked_ref()));
         worker.set_onerror(Some(fail.as_ref().unchecked_ref()));
         let slice = Some(Slice::default());
-        Some(Self { worker, share, from, at: from, telegrams: 0, slice, _hear: hear, _fail: fail })
+        Some(Self { worker, share, from, slice, _hear: hear, _fail: fail })
     }
 
     /// Hears what it says.
     pub fn hear(&mut self, mail: &JsValue) {
         let heard = match mail::read(mail) {
             Some((Answer::Hello, _)) => self.worker.post_message(&self.share).ok(),
-            Some((Answer::Found(piece), words)) => self.take(*piece, words),
+            Some((Answer::Found, words)) => self.take(words),
             _ => None,
         };
         if heard.is_none() {
             // It failed, or there is no memory for what it finds: its slice is read by the first one.
             self.worker.terminate();
-            (self.slice, self.at, self.telegrams) = (None, self.from, 0);
+            self.slice = None;
         }
     }
 
-    fn take(&mut self, mut piece: Piece, words: JsValue) -> Option<()> {
-        piece.words = words.dyn_into::<BigUint64Array>().ok()?.to_vec();
-        (self.at, self.telegrams) = (piece.taken, piece.telegrams);
-        self.slice.as_mut()?.take(piece).then_some(())
+    fn take(&mut self, words: JsValue) -> Option<()> {
+        let words = words.dyn_into::<BigUint64Array>().ok()?.to_vec();
+        self.slice.as_mut()?.take(&words).then_some(())
     }
 
     /// Whether it is not through with its slice.
@@ -79,11 +75,11 @@ impl Other {
 
     /// How many bytes it has read.
     pub fn done(&self) -> u64 {
-        self.at - self.from
+        self.slice.as_ref().map_or(0, |slice| slice.taken().saturating_sub(self.from))
     }
 
-    pub fn telegrams(&self) -> usize {
-        self.telegrams
+    pub fn telegrams(&self) -> u64 {
+        self.slice.as_ref().map_or(0, Slice::telegrams)
     }
 
     /// What it found, if it did not fail.

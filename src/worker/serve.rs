@@ -15,7 +15,7 @@ use super::messages::{Answer, How, Request, Share};
 use super::others::Other;
 use super::reader::Reader;
 use crate::browser::file;
-use buslens::tool::log::{BEGINNING, Division, Log, Piece, SMALL, Slice, Source};
+use buslens::tool::log::{BEGINNING, Division, Log, SMALL, Slice, Source};
 
 /// What is read at a time.
 const PIECE: u64 = 4 << 20;
@@ -119,9 +119,9 @@ fn tell_with(answer: &Answer, beside: &JsValue) {
 }
 
 /// Tells whoever joins them what was found.
-fn tell_found(mut piece: Piece) {
-    let words = BigUint64Array::from(&std::mem::take(&mut piece.words)[..]);
-    if let Some(mail) = mail::write(&Answer::Found(Box::new(piece)), &words) {
+fn tell_found(piece: &[u64]) {
+    let words = BigUint64Array::from(piece);
+    if let Some(mail) = mail::write(&Answer::Found, &words) {
         let _ = scope().post_message_with_transfer(&mail, &Array::of1(&words.buffer()));
     }
 }
@@ -238,9 +238,9 @@ async fn read_slice(file: File, how: How, beginning: u64, slice: Range<u64>) -> 
         if !parts.next(slice.end).await || parts.part.is_empty() || !log.push(&parts.part) {
             return None;
         }
-        tell_found(log.hand_over());
+        tell_found(&log.hand_over());
     }
-    tell_found(log.hand_over_rest(size));
+    tell_found(&log.hand_over_rest(size));
     Some(())
 }
 
@@ -305,7 +305,7 @@ impl Desk {
     fn tell_progress(&mut self) {
         let Some(reader) = &mut self.reader else { return };
         let done = reader.log().taken() + self.others.iter().map(Other::done).sum::<u64>();
-        let telegrams = reader.telegrams() + self.others.iter().map(Other::telegrams).sum::<usize>();
+        let telegrams = reader.telegrams() + self.others.iter().map(Other::telegrams).sum::<u64>() as usize;
         tell(&Answer::Progress { done: done as f64, telegrams });
     }
 

@@ -182,8 +182,8 @@ fn read_slices(file: &Repeated, input: Input, most: usize) -> (Log, [Duration; 4
                 let (mut log, mut slice) = (open(), Slice::default());
                 push(&mut log, 0, beginning, &mut |_| {});
                 let at = log.jump(start);
-                push(&mut log, at, end, &mut |log| assert!(slice.take(log.hand_over())));
-                assert!(slice.take(log.hand_over_rest(file.size)));
+                push(&mut log, at, end, &mut |log| assert!(slice.take(&log.hand_over())));
+                assert!(slice.take(&log.hand_over_rest(file.size)));
                 (slice, processor_time())
             })
         };

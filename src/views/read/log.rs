@@ -341,7 +341,7 @@ impl LogState {
 
     fn hear(&self, answer: Answer, beside: Option<Blob>) {
         match answer {
-            Answer::Hello | Answer::Found(_) => {}
+            Answer::Hello | Answer::Found => {}
             Answer::Progress { done, telegrams } => self.stage.update(|stage| {
                 if let Stage::Reading { done: old, telegrams: before, .. } = stage {
                     (*old, *before) = (done, telegrams);

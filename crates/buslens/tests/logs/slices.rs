@@ -5,7 +5,7 @@ use std::path::Path;
 
 use buslens::field::{Direction, hex};
 use buslens::tool::Options;
-use buslens::tool::log::{BEGINNING, Division, Entry, Input, Log, Piece, Reading, Slice, Source};
+use buslens::tool::log::{BEGINNING, Division, Entry, Input, Log, Reading, Slice, Source};
 
 use super::generator::{Random, exchange};
 use super::programs::{PROGRAMS, clock};
@@ -55,15 +55,6 @@ fn assert_same(whole: &Log, joined: &Log, file: &[u8], what: &str) {
     assert_eq!(findings(joined), findings(whole), "{what}");
 }
 
-/// The same piece as another worker gets it.
-fn sent(mut piece: Piece) -> Piece {
-    let words = std::mem::take(&mut piece.words);
-    let text = serde_json::to_string(&piece).expect("it can be written");
-    let mut sent: Piece = serde_json::from_str(&text).expect("it can be read");
-    sent.words = words;
-    sent
-}
-
 /// How a log is read in slices.
 struct Trial {
     reading: Reading,
@@ -109,9 +100,9 @@ fn compare(file: &[u8], trial: &Trial, random: &mut Random, what: &str) -> (usiz
         let mut slice = Slice::default();
         for part in file[at..to as usize].chunks(random.of(&[5000, 60_000])) {
             log.push(part);
-            assert!(slice.take(log.hand_over()) && !slice.is_whole());
+            assert!(slice.take(&log.hand_over()) && !slice.is_whole());
         }
-        assert!(slice.take(sent(log.hand_over_rest(file.len() as u64))) && slice.is_whole());
+        assert!(slice.take(&log.hand_over_rest(file.len() as u64)) && slice.is_whole());
         slice
     };
     let mut slices: Vec<Slice> = cuts.iter().copied().zip(ends).map(&mut read).collect();

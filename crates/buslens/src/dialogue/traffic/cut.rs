@@ -9,17 +9,14 @@
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
-#[cfg(feature = "json")]
-use serde::{Deserialize, Serialize};
-
 use super::collect::{Latest, Traffic};
 use super::entries::{Entries, Shift};
 use super::entry::{Entry, NO_TIME, NOBODY, Written};
 use super::judge::{Known, Shapes};
 use super::lane::{Carries, Lane, Row};
-use super::packed::Words;
+use super::packed::{Words, take_number, take_words};
 use super::settle::Lines;
-use super::statistics::{Counts, Span, spanned};
+use super::statistics::{Counts, Span, spanned, take_times, write_times};
 use crate::dialogue::foreign::{FOREIGN, FT12};
 
 /// What the beginning of a log tells of all of it.
@@ -38,7 +35,6 @@ pub(super) struct Context {
 
 /// A place between two telegrams, in the numbers of one reader.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "json", derive(Serialize, Deserialize))]
 pub struct Place {
     /// How many telegrams, lines without one, and pauses are settled before it.
     telegrams: usize,
@@ -65,7 +61,6 @@ pub struct Found {
 
 /// What a reader hands over at the end of its slice, beside telegrams and lines.
 #[derive(Debug, Default)]
-#[cfg_attr(feature = "json", derive(Serialize, Deserialize))]
 pub struct Sums {
     counts: Counts,
     pauses: Vec<(u32, u32)>,
@@ -75,13 +70,23 @@ pub struct Sums {
 
 impl Found {
     /// Takes what a reader [handed over](Traffic::hand_over); `None` if that is cut.
-    pub fn take(&mut self, mut words: &[u64]) -> Option<()> {
-        self.settled.take(&mut words)?;
-        self.lines.take(&mut words)
+    pub fn take(&mut self, words: &mut &[u64]) -> Option<()> {
+        self.settled.take(words)?;
+        self.lines.take(words)
     }
 }
 
 impl Sums {
+    /// Takes what a reader [wrote](Traffic::write_sums); `None` if that is cut.
+    pub fn take(words: &mut &[u64]) -> Option<Self> {
+        let counts = Counts::take(words)?;
+        let pause = |word: &u64| ((word >> 32) as u32, *word as u32);
+        let pauses = take_number(words)?;
+        let pauses = words.split_off(..pauses)?.iter().map(pause).collect();
+        let foreign_protocols = take_words(words)?.map(|count| count as u32);
+        Some(Self { counts, pauses, foreign_protocols, dated: take_number(words)? > 0 })
+    }
+
     /// Whether some time has a date.
     pub fn is_dated(&self) -> bool {
         self.dated
@@ -190,25 +195,22 @@ impl Traffic {
     }
 
     /// Hands over what is settled for good, as the latest mark is this one; all of it without one.
-    pub fn hand_over(&mut self, mark: Option<&Place>) -> Words {
-        let mut words = Words::new();
+    pub fn hand_over(&mut self, mark: Option<&Place>, words: &mut Words) {
         let (telegrams, lines) = mark.map_or((usize::MAX, usize::MAX), |mark| {
             let open = mark.open.iter().max().unwrap_or(&0);
             (mark.telegrams - open, mark.lines)
         });
-        self.settled.hand_over(telegrams, &mut words);
-        self.lines.hand_over(lines, &mut words);
-        words
+        self.settled.hand_over(telegrams, words);
+        self.lines.hand_over(lines, words);
     }
 
-    /// What there is beside that at the end of the slice.
-    pub fn into_sums(mut self) -> Sums {
-        Sums {
-            counts: std::mem::take(self.settled.counts_mut()),
-            pauses: self.pauses,
-            foreign_protocols: self.foreign_protocols,
-            dated: self.dated,
-        }
+    /// Writes what there is beside that at the end of the slice.
+    pub fn write_sums(&self, words: &mut Words) {
+        self.settled.counts().write(words);
+        words.push(self.pauses.len() as u64);
+        words.extend(self.pauses.iter().map(|(index, pause)| u64::from(*index) << 32 | u64::from(*pause)));
+        words.extend(self.foreign_protocols.map(u64::from));
+        words.push(self.dated.into());
     }
 
     /// Whether some time has a date.
@@ -285,6 +287,26 @@ impl Traffic {
 }
 
 impl Place {
+    /// Writes it as words.
+    pub fn write(&self, words: &mut Words) {
+        let Self { telegrams, lines, pauses, line, days, foreign_protocols, open, times, state } = self;
+        words.extend([telegrams, lines, pauses, &open.len()].map(|count| *count as u64));
+        words.extend([u64::from(*line), *days as u64, *state]);
+        write_times(words, *times);
+        words.extend(foreign_protocols.map(u64::from));
+        words.extend(open.iter().map(|distance| *distance as u64));
+    }
+
+    /// Takes what [`write`](Self::write) wrote; `None` if that is cut.
+    pub fn take(words: &mut &[u64]) -> Option<Self> {
+        let [telegrams, lines, pauses, open] = take_words(words)?.map(|count| count as usize);
+        let [line, days, state] = take_words(words)?;
+        let (line, days, times) = (line as u32, days as i64, take_times(words)?);
+        let foreign_protocols = take_words(words)?.map(|count| count as u32);
+        let open = words.split_off(..open)?.iter().map(|distance| *distance as usize).collect();
+        Some(Self { telegrams, lines, pauses, line, days, foreign_protocols, open, times, state })
+    }
+
     /// Whether all that another reader finds behind `there` is found by this one behind this place, too; `dated` says
     /// whether some time has a date.
     pub fn is_alike(&self, there: &Self, dated: bool) -> bool {
@@ -392,9 +414,9 @@ mod tests {
             pauses: 300 + 3 * by,
             line: 400 + 4 * by as u32,
             days: 500 + 5 * by as i64,
-            times: Some((by as i64, 2 * by as i64)),
             foreign_protocols: [600 + 6 * by as u32; FOREIGN.len()],
             open: vec![by],
+            times: Some((-700 - by as i64, 800 + by as i64)),
             state: by as u64,
         }
     }
@@ -402,8 +424,35 @@ mod tests {
     #[test]
     fn a_place_in_the_numbers_of_another_reader() {
         // From 10 to 30 of the other one it is as far as from 50 to 70 of the own.
-        let moved = place(50).moved(&place(10), &place(30));
-        assert_eq!(moved, Place { open: vec![30], times: Some((30, 60)), state: 30, ..place(70) });
+        let Place { open, times, state, .. } = place(30);
+        assert_eq!(place(50).moved(&place(10), &place(30)), Place { open, times, state, ..place(70) });
         assert_eq!(place(50).lines_behind(&place(10), 1000), 1160);
+    }
+
+    #[test]
+    fn places_and_sums_come_back_from_words() {
+        let counts = |words: &Words| Sums::take(&mut &words[..]).map(|sums| format!("{sums:?}"));
+        for times in [None, Some((-5, -5)), Some((-9, 1 << 60))] {
+            let place = Place { times, open: vec![3, 70_000, 0], ..place(40) };
+            let mut words = Words::new();
+            place.write(&mut words);
+            assert_eq!(Place::take(&mut &words[..]), Some(place));
+            for cut in 0..words.len() {
+                assert_eq!(Place::take(&mut &words[..cut]), None);
+            }
+        }
+        let mut traffic = Traffic::new(&crate::frame::modbus_rtu::PROTOCOL, &Default::default());
+        (traffic.pauses, traffic.dated) = (vec![(7, u32::MAX), (u32::MAX - 1, 0)], true);
+        traffic.foreign_protocols = [9; FOREIGN.len()];
+        let mut words = Words::new();
+        traffic.write_sums(&mut words);
+        let sums = Sums {
+            counts: Counts::default(),
+            pauses: traffic.pauses,
+            foreign_protocols: [9; FOREIGN.len()],
+            dated: true,
+        };
+        assert_eq!(counts(&words), Some(format!("{sums:?}")));
+        assert_eq!(counts(&words[..words.len() - 1].to_vec()), None);
     }
 }

@@ -4,7 +4,7 @@
 //! or as pairs of hex digits at equal distances; others are kept.
 
 use super::entry::{Entry, Hint, NO_TIME, NOBODY, Role, Written};
-use super::packed::{Packed, Rows, Words, take_number};
+use super::packed::{Packed, Rows, Words, take_bytes, take_number, write_bytes};
 use super::statistics::Counts;
 use crate::field::Direction;
 use crate::frame::Verdict;
@@ -339,14 +339,7 @@ impl Kept {
         let blocks = if all { self.blocks.len() } else { self.blocks.len().saturating_sub(1) };
         words.push(blocks as u64);
         for block in self.blocks.drain(..blocks) {
-            words.push(block.len() as u64);
-            let (whole, rest) = block.as_chunks();
-            words.extend(whole.iter().map(|bytes| u64::from_le_bytes(*bytes)));
-            if !rest.is_empty() {
-                let mut last = [0; 8];
-                last[..rest.len()].copy_from_slice(rest);
-                words.push(u64::from_le_bytes(last));
-            }
+            write_bytes(words, &block);
         }
         self.gone += blocks;
     }
@@ -354,11 +347,7 @@ impl Kept {
     /// Takes what another one [handed over](Self::hand_over), behind what came before it.
     fn take(&mut self, words: &mut &[u64]) -> Option<()> {
         for _ in 0..take_number(words)? {
-            let length = take_number(words)?;
-            let block = words.split_off(..length.div_ceil(8))?;
-            let mut bytes: Vec<u8> = block.iter().flat_map(|word| word.to_le_bytes()).collect();
-            bytes.truncate(length);
-            self.blocks.push(bytes);
+            self.blocks.push(take_bytes(words)?);
         }
         Some(())
     }

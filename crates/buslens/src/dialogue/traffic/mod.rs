@@ -21,5 +21,6 @@ pub use collect::{Chunk, Traffic};
 pub use cut::{Found, Place, Sums};
 pub use entries::{Entries, Iter};
 pub use entry::{Entry, Hint, Role, Written};
+pub use packed::{take_bytes, write_bytes};
 pub use settle::Lines;
 pub use statistics::{Dialog, Minutes, Statistics, latency, statistics};

@@ -22,9 +22,30 @@ const CHUNK: usize = 256;
 /// What is handed over to whoever joins it, on another thread or in another worker.
 pub(super) type Words = Vec<u64>;
 
+/// The next ones of some words.
+pub(super) fn take_words<const N: usize>(words: &mut &[u64]) -> Option<[u64; N]> {
+    words.split_off(..N)?.try_into().ok()
+}
+
 /// The next one of some words, as a number of something.
 pub(super) fn take_number(words: &mut &[u64]) -> Option<usize> {
     usize::try_from(*words.split_off_first()?).ok()
+}
+
+/// Writes bytes as words.
+pub fn write_bytes(words: &mut Words, bytes: &[u8]) {
+    words.push(bytes.len() as u64);
+    let word = |bytes: &[u8]| bytes.iter().rev().fold(0, |word, byte| word << 8 | u64::from(*byte));
+    words.extend(bytes.chunks(8).map(word));
+}
+
+/// Takes what [`write_bytes`] wrote; `None` if that is cut.
+pub fn take_bytes(words: &mut &[u64]) -> Option<Vec<u8>> {
+    let length = take_number(words)?;
+    let written = words.split_off(..length.div_ceil(8))?;
+    let mut bytes: Vec<u8> = written.iter().flat_map(|word| word.to_le_bytes()).collect();
+    bytes.truncate(length);
+    Some(bytes)
 }
 
 /// A chunk of rows: a [`Head`] of [`HEAD`] words for each column, and the columns behind them.

@@ -2,11 +2,9 @@
 
 use std::collections::HashMap;
 
-#[cfg(feature = "json")]
-use serde::{Deserialize, Serialize};
-
 use super::collect::Traffic;
 use super::entry::{Entry, Role};
+use super::packed::{Words, take_number, take_words};
 use crate::field::Direction;
 use crate::frame::Verdict;
 use crate::modbus::EXCEPTION;
@@ -65,7 +63,6 @@ pub struct Minutes {
 
 /// What is counted of telegrams while they are settled: of each by itself, in no order.
 #[derive(Debug, Default)]
-#[cfg_attr(feature = "json", derive(Serialize, Deserialize))]
 pub(super) struct Counts {
     /// Of each role, and of each verdict, by their numbers.
     roles: [usize; 8],
@@ -75,12 +72,22 @@ pub(super) struct Counts {
     before: Option<Span>,
     times: Option<Span>,
     tallies: Vec<Tally>,
-    #[cfg_attr(feature = "json", serde(skip))]
     places: Places,
 }
 
 /// The first and the last one of some times.
 pub(super) type Span = (i64, i64);
+
+/// Writes it; what is none ends before it begins.
+pub(super) fn write_times(words: &mut Words, times: Option<Span>) {
+    let (first, last) = times.unwrap_or((0, -1));
+    words.extend([first as u64, last as u64]);
+}
+
+pub(super) fn take_times(words: &mut &[u64]) -> Option<Option<Span>> {
+    let [first, last] = take_words(words)?.map(|time| time as i64);
+    Some((first <= last).then_some((first, last)))
+}
 
 /// All of both.
 pub(super) fn spanned(one: Option<Span>, other: Option<Span>) -> Option<Span> {
@@ -90,7 +97,6 @@ pub(super) fn spanned(one: Option<Span>, other: Option<Span>) -> Option<Span> {
 
 /// The telegrams of a port, a unit and a function code as it is on the wire.
 #[derive(Clone, Debug)]
-#[cfg_attr(feature = "json", derive(Serialize, Deserialize))]
 struct Tally {
     port: u16,
     unit: Option<u8>,
@@ -179,6 +185,32 @@ impl Counts {
                 *own += other;
             }
         }
+    }
+
+    /// Writes what was counted, and of the times those since the last mark.
+    pub fn write(&self, words: &mut Words) {
+        let Self { roles, verdicts, bytes_discarded, times, tallies, .. } = self;
+        words.extend(roles.iter().chain(verdicts).chain([bytes_discarded]).map(|count| *count as u64));
+        write_times(words, *times);
+        words.push(tallies.len() as u64);
+        for Tally { port, unit, function, counts } in tallies {
+            words.push(key(*port, *unit, *function));
+            words.extend(counts.map(u64::from));
+        }
+    }
+
+    /// Takes what another one [wrote](Self::write); `None` if that is cut.
+    pub fn take(words: &mut &[u64]) -> Option<Self> {
+        let roles = take_words(words)?.map(|count| count as usize);
+        let verdicts = take_words(words)?.map(|count| count as usize);
+        let (bytes_discarded, times) = (take_number(words)?, take_times(words)?);
+        let tally = |words: &mut &[u64]| {
+            let [_, _, _, high, low, has_unit, unit, function] = take_words::<1>(words)?[0].to_be_bytes();
+            let (port, unit) = (u16::from_be_bytes([high, low]), (has_unit != 0).then_some(unit));
+            Some(Tally { port, unit, function, counts: take_words(words)?.map(|count| count as u32) })
+        };
+        let tallies = (0..take_number(words)?).map(|_| tally(words)).collect::<Option<_>>()?;
+        Some(Self { roles, verdicts, bytes_discarded, times, tallies, ..Self::default() })
     }
 
     /// What was added as `before` is `entry` now.

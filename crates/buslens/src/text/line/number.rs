@@ -78,7 +78,7 @@ impl Scan {
     }
 
     /// Adds the bytes of an even number of hex digits.
-    fn push_pairs(&mut self, line: &[u8], at: usize, to: usize) {
+    pub(super) fn push_pairs(&mut self, line: &[u8], at: usize, to: usize) {
         let pairs = line[at..to].chunks_exact(2);
         self.hex.extend(pairs.map(|pair| DIGITS[usize::from(pair[0])] * 16 + DIGITS[usize::from(pair[1])]));
         if !self.hex_only() {

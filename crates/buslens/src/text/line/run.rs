@@ -2,7 +2,7 @@
 
 use super::Scan;
 use crate::field::Span;
-use crate::text::characters::{DIGITS, HEX, is_word, separator, word, word_of};
+use crate::text::characters::{DIGITS, HEX, hex_value, is_word, separator, word, word_of};
 use crate::text::words::{Sender, Weight};
 
 /// How bytes without a mark of their own are written.
@@ -144,6 +144,97 @@ pub(super) const fn marked(style: Style) -> Kind {
     Kind { hex: true, decimal: false, marked: true, style }
 }
 
+/// How the numbers of a run are written that are read without asking what else they could be.
+#[derive(Clone, Copy, Debug)]
+enum Same {
+    /// `01`, with more than two characters between them: see [`Scan::same_pairs`].
+    Pairs,
+    /// `0103`
+    Words,
+    /// `0x01`, `0x1`
+    Prefixed,
+    /// `01h`
+    Suffixed,
+    /// `200`, where it can be no hex.
+    Decimal { only: bool },
+}
+
+/// A number that is written like those before it.
+struct Number {
+    /// How many characters it has.
+    length: usize,
+    hex: u8,
+    decimal: u8,
+}
+
+impl Same {
+    /// How the numbers of `run` are written, the last of which has so many bytes, where nothing between them could mean
+    /// something else than before.
+    fn of(run: &Run, bytes: usize, gap: &[u8], numbers: Option<Numbers>) -> Option<Self> {
+        let may_be_hex = run.hex && !run.marked && numbers != Some(Numbers::Decimal);
+        match run.style {
+            // Quotes, signs before a number, what shows the bytes as characters.
+            _ if gap.iter().any(|c| matches!(c, b'"' | b'\'' | b'%'))
+                || matches!(gap, [] | [b'|', ..] | [b' ' | b'\t', b' ' | b'\t' | b'|', ..])
+                || matches!(gap, [_, .., b'-'] | [b' ', .., b'[']) =>
+            {
+                None
+            }
+            Style::Separated if may_be_hex && bytes == 1 && !run.single => Some(Self::Pairs),
+            Style::Contiguous if may_be_hex && bytes == 2 => Some(Self::Words),
+            Style::Prefixed if run.marked && run.hex && bytes == 1 => Some(Self::Prefixed),
+            Style::Suffixed if run.marked && run.hex && bytes == 1 => Some(Self::Suffixed),
+            Style::Separated if !run.marked && !run.hex && run.decimal && bytes == 1 => {
+                Some(Self::Decimal { only: numbers.is_some() })
+            }
+            _ => None,
+        }
+    }
+
+    /// The number that begins a text.
+    fn number(self, text: &[u8]) -> Option<Number> {
+        let digit = |at: usize| text.get(at).map_or(0xFF, |c| DIGITS[usize::from(*c)]);
+        // One hex digit or two.
+        let byte = |at: usize| match [digit(at), digit(at + 1)] {
+            [0x10..=0xFF, _] => None,
+            [high, low @ 0..=15] => Some((2, high * 16 + low)),
+            [value, _] => Some((1, value)),
+        };
+        let marked = |length: usize, value: u8| Number { length, hex: value, decimal: value };
+        match (self, text) {
+            (Self::Pairs, _) => {
+                let [high, low] = [digit(0), digit(1)];
+                let decimal = if high < 10 && low < 10 { high * 10 + low } else { 0 };
+                (high | low < 0x10).then(|| Number { length: 2, hex: high * 16 + low, decimal })
+            }
+            (Self::Words, _) => {
+                let four = (0..4).all(|at| digit(at) < 0x10);
+                four.then_some(Number { length: 4, hex: 0, decimal: 0 })
+            }
+            (Self::Prefixed, [b'0', b'x' | b'X', ..]) => {
+                byte(2).map(|(digits, value)| marked(2 + digits, value))
+            }
+            (Self::Suffixed, _) => {
+                let (digits, value) = byte(0)?;
+                let own = &text[..digits];
+                // "ach" is a word.
+                let hex = own.iter().any(u8::is_ascii_digit) || own.iter().all(u8::is_ascii_uppercase);
+                let ends = hex && matches!(text.get(digits), Some(b'h' | b'H'));
+                ends.then(|| marked(digits + 1, value))
+            }
+            (Self::Decimal { only }, _) => {
+                let length = text.iter().take(3).take_while(|c| c.is_ascii_digit()).count();
+                let digits = text[..length].iter();
+                let value = digits.fold(0, |sum, c| sum * 10 + u32::from(c - b'0'));
+                let hex = if only || length > 2 { 0 } else { hex_value(&text[..length]) };
+                let decimal = u8::try_from(value).ok().filter(|_| length > 0)?;
+                Some(Number { length, hex, decimal })
+            }
+            _ => None,
+        }
+    }
+}
+
 impl Scan {
     /// The run that goes on, if the next number fits.
     pub(super) fn open(&self) -> Option<&Run> {
@@ -154,19 +245,23 @@ impl Scan {
         self.runs.last_mut().filter(|_| self.is_open)
     }
 
-    /// Most of a log are bytes of two hex digits with the same between them: they are read without
+    /// Most of a log are numbers that are all written alike, with the same between them: they are read without
     /// asking what else they could be. Returns where that ends.
     #[inline]
     pub(super) fn same_again(&mut self, line: &[u8], at: usize) -> usize {
-        let decimal_only = self.numbers == Some(Numbers::Decimal);
+        let Some(run) = self.open().filter(|run| run.span.to == at && run.since >= 2) else { return at };
+        let may_be_hex = run.hex && !run.marked && !run.single && self.numbers != Some(Numbers::Decimal);
+        let (pairs, words) = (may_be_hex && matches!(run.gap, 1 | 2), run.end - run.last == 2);
+        let to = if words || !pairs { self.same_numbers(line, at) } else { at };
+        if pairs { self.same_pairs(line, to) } else { to }
+    }
+
+    /// The same for bytes of two hex digits with one character or two between them.
+    fn same_pairs(&mut self, line: &[u8], at: usize) -> usize {
         let hex_only = self.hex_only();
-        let Self { runs, hex, decimal, places, is_open, .. } = self;
-        let Some(run) = runs.last_mut().filter(|run| *is_open && run.span.to == at) else { return at };
+        let Self { runs, hex, decimal, places, .. } = self;
+        let Some(run) = runs.last_mut() else { return at };
         let width = run.gap;
-        let known = run.since >= 2 && run.hex && !run.marked && !run.single && (1..=2).contains(&width);
-        if !known || decimal_only {
-            return at;
-        }
         let gap = [line[run.second_at - width], line[run.second_at - 1]];
         let digits = |next: &[u8]| {
             let [.., high, low] = *next else { return [0xFF; 2] };
@@ -204,6 +299,52 @@ impl Scan {
         run.since += count;
         (run.last, run.end) = (hex.len() - 1, hex.len());
         (run.span.to, run.colon) = (to, false);
+        to
+    }
+
+    /// The same for numbers of any kind.
+    fn same_numbers(&mut self, line: &[u8], at: usize) -> usize {
+        let Some(run) = self.open() else { return at };
+        let gap = &line[run.second_at - run.gap..run.second_at];
+        let Some(same) = Same::of(run, run.end - run.last, gap, self.numbers) else { return at };
+        let mut run = *run;
+        let goes_on = |at: usize| {
+            line.get(at..)
+                .is_some_and(|rest| rest.len() > gap.len() && gap.iter().zip(rest).all(|(a, b)| a == b))
+        };
+        while goes_on(run.span.to) {
+            let from = run.span.to + gap.len();
+            let Some(Number { length, hex, decimal }) = same.number(&line[from..]) else { break };
+            let to = from + length;
+            // What stands behind the last one may make something else of it.
+            let ends = to == line.len() || goes_on(to);
+            let plain = matches!(same, Same::Pairs | Same::Decimal { .. });
+            let single = plain && length == 1;
+            if !ends || (single && run.padded && run.separator == b' ') {
+                break;
+            }
+            run.single |= single;
+            run.padded |= plain && length == 2 && line[from] == b'0';
+            run.decimal = match same {
+                Same::Pairs => run.decimal && hex < 0xA0 && hex & 0x0F < 0x0A,
+                Same::Words => false,
+                _ => true,
+            };
+            run.last = self.hex.len();
+            match same {
+                Same::Words => self.push_pairs(line, from, to),
+                _ => self.push(hex, decimal, from, to),
+            }
+            run.tokens += 1;
+            run.since += 1;
+            run.span.to = to;
+            run.colon = false;
+        }
+        let to = run.span.to;
+        run.end = self.hex.len();
+        if let Some(open) = self.open_mut() {
+            *open = run;
+        }
         to
     }
 

@@ -41,7 +41,7 @@ pub use pictures::{Bucket, Held, Point, Timeline};
 #[cfg(feature = "captures")]
 pub use redact::{Hidden, Kind, Redacted, Replaced};
 pub use seen::{Seen, seen};
-pub use slices::{Division, Piece, Slice};
+pub use slices::{Division, Slice};
 pub use story::time_text;
 
 use slices::Passed;

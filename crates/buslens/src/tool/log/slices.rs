@@ -10,11 +10,8 @@
 use std::hash::{DefaultHasher, Hash};
 use std::ops::Range;
 
-#[cfg(feature = "json")]
-use serde::{Deserialize, Serialize};
-
 use super::{Log, Way, has_room};
-use crate::dialogue::traffic::{Found, Place, Sums};
+use crate::dialogue::traffic::{Found, Place, Sums, take_bytes, write_bytes};
 
 /// Where a log has its marks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -144,81 +141,94 @@ impl Log {
     }
 }
 
-/// What a reader of a slice found since it told last: plain data that can go to another thread, or to another worker.
-#[derive(Debug)]
-#[cfg_attr(feature = "json", derive(Serialize, Deserialize))]
-pub struct Piece {
-    /// Most of it: telegrams and lines as they are packed. They go beside the rest where that is written as bytes.
-    #[cfg_attr(feature = "json", serde(skip))]
-    pub words: Vec<u64>,
-    /// How many bytes of the file are read, and how many telegrams the reader has.
-    pub taken: u64,
-    pub telegrams: usize,
-    marks: Vec<(u64, Place)>,
-    end: Option<End>,
-}
-
-/// What a reader tells at the end of its slice.
-#[derive(Debug)]
-#[cfg_attr(feature = "json", derive(Serialize, Deserialize))]
-struct End {
-    taken: u64,
-    /// How many lines are read.
-    lines: u32,
-    /// The names of the ports.
-    ports: Vec<String>,
-    sums: Sums,
-}
-
 /// A slice as its reader handed it over, piece by piece.
 #[derive(Debug, Default)]
 pub struct Slice {
     found: Found,
     marks: Vec<(u64, Place)>,
-    end: Option<End>,
+    /// How many bytes of the file, telegrams and lines are read.
+    taken: u64,
+    telegrams: u64,
+    lines: u32,
+    /// Once it is read to its end; with the names of ports.
+    end: Option<(Sums, Vec<String>)>,
 }
 
 impl Slice {
-    /// Takes the next piece; `false` if there is no memory for it, or if it is none of this program.
-    pub fn take(&mut self, piece: Piece) -> bool {
-        if !has_room() {
-            return false;
+    /// Takes the next piece that a reader [handed over](Log::hand_over); `false` if there is no memory for it, or if it
+    /// is cut.
+    pub fn take(&mut self, piece: &[u64]) -> bool {
+        has_room() && self.take_words(piece).is_some()
+    }
+
+    fn take_words(&mut self, mut words: &[u64]) -> Option<()> {
+        let [taken, telegrams, lines, marks, ends] = *words.split_off(..5)? else { return None };
+        (self.taken, self.telegrams, self.lines) = (taken, telegrams, lines as u32);
+        for _ in 0..marks {
+            let at = *words.split_off_first()?;
+            self.marks.push((at, Place::take(&mut words)?));
         }
-        self.marks.extend(piece.marks);
-        self.end = piece.end;
-        self.found.take(&piece.words).is_some()
+        self.found.take(&mut words)?;
+        if ends > 0 {
+            let sums = Sums::take(&mut words)?;
+            let mut ports = Vec::new();
+            while !words.is_empty() {
+                ports.push(String::from_utf8(take_bytes(&mut words)?).ok()?);
+            }
+            self.end = Some((sums, ports));
+        }
+        Some(())
     }
 
     /// Whether it is read to its end.
     pub fn is_whole(&self) -> bool {
         self.end.is_some()
     }
+
+    /// Up to where in the file it is read.
+    pub fn taken(&self) -> u64 {
+        self.taken
+    }
+
+    /// How many telegrams are read.
+    pub fn telegrams(&self) -> u64 {
+        self.telegrams
+    }
 }
 
 impl Log {
-    /// Hands over what was found since the last time, and is not in this log any more then.
-    pub fn hand_over(&mut self) -> Piece {
+    /// Hands over what was found since the last time, which is not in this log any more then, as words that can go to
+    /// another thread, or to another worker.
+    pub fn hand_over(&mut self) -> Vec<u64> {
         self.piece(false)
     }
 
     /// The slice ends here, of a file of so many bytes: hands over all that is left.
-    pub fn hand_over_rest(mut self, size: u64) -> Piece {
+    pub fn hand_over_rest(mut self, size: u64) -> Vec<u64> {
         if self.taken == size {
             self.end();
         }
-        let piece = self.piece(true);
-        let Self { taken, input, traffic, ports, .. } = self;
-        let lines = if let Way::Text(reader) = &input { reader.lines() } else { 0 };
-        Piece { end: Some(End { taken, lines, ports: ports.names, sums: traffic.into_sums() }), ..piece }
+        let mut words = self.piece(true);
+        self.traffic.write_sums(&mut words);
+        self.ports.names.iter().for_each(|name| write_bytes(&mut words, name.as_bytes()));
+        words
     }
 
-    fn piece(&mut self, all: bool) -> Piece {
-        let telegrams = self.entries().len();
-        let marks = self.passed.as_mut().map(|passed| std::mem::take(&mut passed.places)).unwrap_or_default();
+    fn piece(&mut self, ends: bool) -> Vec<u64> {
+        let Self { passed, input, traffic, taken, .. } = self;
+        let lines = if let Way::Text(reader) = input { reader.lines() } else { 0 };
+        let marks = passed.as_mut().map(|passed| std::mem::take(&mut passed.places)).unwrap_or_default();
+        let telegrams = traffic.entries().len() as u64;
+        let mut words = vec![*taken, telegrams, lines.into(), marks.len() as u64, ends.into()];
+        for (at, place) in &marks {
+            words.push(*at);
+            place.write(&mut words);
+        }
         // Before the first mark nothing is settled for good.
-        let latest = marks.last().map(|(_, place)| place.clone()).unwrap_or_default();
-        let words = self.traffic.hand_over(if all { None } else { Some(&latest) });
-        Piece { words, taken: self.taken, telegrams, marks, end: None }
+        let first = Place::default();
+        let latest = marks.last().map_or(&first, |(_, place)| place);
+        traffic.hand_over(if ends { None } else { Some(latest) }, &mut words);
+        words
     }
 
     /// Takes over what other readers found of a file of so many bytes, in the order of their slices, if that goes on at the
@@ -227,7 +237,7 @@ impl Log {
     pub fn join(&mut self, slices: &mut Vec<Slice>, size: u64) -> bool {
         let Some((mut here, marks)) = self.follow(slices, size) else { return false };
         for (slice, mark) in slices.drain(..).zip(marks) {
-            let Slice { found, marks, end: Some(End { taken, lines, ports, sums }) } = slice else {
+            let Slice { found, marks, taken, lines, end: Some((sums, ports)), .. } = slice else {
                 continue;
             };
             let marks = &marks[mark..];
@@ -244,8 +254,8 @@ impl Log {
     /// Leaves out the slices that this log has read itself, or that are not whole; tells where this log is, and at which of
     /// its marks each of the others goes on with what is before it, if all of them do.
     fn follow(&self, slices: &mut Vec<Slice>, size: u64) -> Option<(Place, Vec<usize>)> {
-        slices.retain(|slice| slice.end.as_ref().is_some_and(|end| end.taken > self.taken));
-        let dated = |slice: &Slice| slice.end.as_ref().is_some_and(|end| end.sums.is_dated());
+        slices.retain(|slice| slice.is_whole() && slice.taken > self.taken);
+        let dated = |slice: &Slice| slice.end.as_ref().is_some_and(|(sums, _)| sums.is_dated());
         let dated = self.traffic.is_dated() || slices.iter().any(dated);
         let first = self.passed.as_ref()?.places.last().filter(|(at, _)| *at == self.taken)?;
         let mut last = first;
@@ -258,8 +268,7 @@ impl Log {
             marks.push(mark);
             last = slice.marks.last()?;
         }
-        let end = slices.last()?.end.as_ref()?;
-        (end.taken == size).then(|| (first.1.clone(), marks))
+        (slices.last()?.taken == size).then(|| (first.1.clone(), marks))
     }
 
     /// How many bytes of the file come before the next mark.
