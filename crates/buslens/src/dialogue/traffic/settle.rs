@@ -66,10 +66,7 @@ impl Traffic {
     /// Settles all but the last ones, and the lines before them; so many were read.
     pub(super) fn settle_ready(&mut self, line: u32) {
         self.settle_blocks(line);
-        match self.entries.len().checked_sub(BEHIND) {
-            Some(ready) if ready > 0 => self.settle(self.end_of_block(ready)),
-            _ => self.settle(0),
-        }
+        self.settle(self.end_of_block(self.entries.len().saturating_sub(BEHIND)));
     }
 
     /// Where the next block of so many telegrams ends: behind an answer and a line, if there is such a place nearby.
