@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 use std::ops::Range;
 
+use gloo_timers::callback::Timeout;
 use wasm_bindgen::closure::Closure;
 use wasm_bindgen::{JsCast, JsValue};
 // Leptos has no executor where nothing is mounted.
@@ -22,6 +23,10 @@ const PIECE: u64 = 4 << 20;
 
 /// What is read at first, so that there is something to see at once.
 const FIRST: u64 = 1 << 20;
+
+/// When all other workers say nothing for so long, in milliseconds, they are waited for no more: a browser that is
+/// short of memory may end one without a word. The page waits longer for this one.
+const PATIENCE: u32 = 15_000;
 
 /// A slice for another worker has so many bytes at least.
 const LEAST: u64 = 32 << 20;
@@ -206,8 +211,15 @@ async fn open(turn: u32, file: File, how: How) {
             Step::Wait => {
                 let heard =
                     Promise::new(&mut |heard, _| DESK.with_borrow_mut(|desk| desk.heard = Some(heard)));
+                let given_up = Timeout::new(PATIENCE, || {
+                    DESK.with_borrow_mut(|desk| {
+                        desk.others.clear();
+                        desk.wake();
+                    });
+                });
                 // It cannot fail.
                 let _ = JsFuture::from(heard).await;
+                drop(given_up);
             }
             Step::Finish => break,
             Step::Leave => return,

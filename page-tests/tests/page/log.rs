@@ -310,6 +310,14 @@ async fn several_workers_read_one_log() -> Result {
     let (without, _) = said_by(page, 2, &path, &text).await?;
     assert_eq!(without, alone);
     assert!(site.asked().iter().any(|path| path.ends_with("gone.js")), "it was tried");
+    // Nor does it wait for ever for one that says nothing.
+    let mut files = changed(dist(), "boot", "new Worker(import.meta.url", &gone.replace("gone", "silent"));
+    files.insert("silent.js".to_owned(), Vec::new());
+    let site = Site::serve(files);
+    let page = Page::open_address(&site.address(""), DESKTOP, false).await?;
+    let (without, _) = said_by(page, 2, &path, &text).await?;
+    assert_eq!(without, alone);
+    assert!(site.asked().iter().any(|path| path.ends_with("silent.js")), "it was tried");
     Ok(())
 }
 
