@@ -40,8 +40,9 @@ fn run(data: &[u8]) {
         assert!(!annotated::text(&report).is_empty());
     }
     if how & 24 == 0 {
-        // A byte or two by themselves are read as a telegram in some texts only.
-        for telegram in report.telegrams.iter().take(2).filter(|it| it.line.bytes.len() > 3) {
+        // A byte or two by themselves are read as a telegram in some texts only, and eight digits 0 and 1 are bits.
+        let told = |bytes: &[u8]| bytes.len() > 3 && bytes.iter().any(|byte| byte & 0xEE != 0);
+        for telegram in report.telegrams.iter().take(2).filter(|it| told(&it.line.bytes)) {
             copied(&telegram.line.bytes);
         }
     }
