@@ -482,13 +482,18 @@ impl Scan {
         run.len() == 1 && self.hex[run.first] == SC && run.word == word_of(b"SC")
     }
 
-    /// The numbers of a line that stand behind running ones: `0: 17, 1: 03, 2: 00`.
+    /// The numbers of a line that stand behind running ones, with another sign between than before the next one:
+    /// `0: 17, 1: 03, 2: 00`.
     pub fn behind_indices(&self, line: &[u8]) -> Option<impl Iterator<Item = usize> + use<>> {
         /// Fewer are no list.
         const LEAST: usize = 5;
         let number = |at: usize| decimal(self.places.get(at)?.of(line));
         let runs = |at: usize| {
             let first = number(at).filter(|first| *first < 2)?;
+            let gap = |at: usize| Some(&line[self.places.get(at)?.to..self.places.get(at + 1)?.from]);
+            if gap(at) == gap(at + 1) {
+                return None;
+            }
             let pairs = 0..self.places.len().saturating_sub(at) / 2;
             let count = pairs.take_while(|nth| number(at + 2 * nth) == Some(first + nth)).count();
             (count >= LEAST).then_some((at + 1..at + 2 * count).step_by(2))

@@ -257,6 +257,8 @@ const CONVERSATIONS: &[&str] = &[
 
 /// Slips and odd neighbours, each of which shows a difference that the other texts do not.
 const DIFFERENCES: &[&str] = &[
+    "01 17 00 10 00 05 00 20 00 05 0A 00 00 01 00 02 00 03 00 04 00 crc",
+    "00 00 01 00 02 00 03 00 04 00 05 00",
     "01, }03,\n00, C8, (8)\nend 00, 03",
     "S1: C1 00 23 00 00 00 00 00\nE1: 71 00 23 00 00 00 00 05",
     "10:00:01 discarded  rx: 01 03 06 00 80\n1000:00 rx: 42 A4 F1 DE B0 F8",
