@@ -5,16 +5,15 @@ use std::rc::{Rc, Weak};
 
 use gloo_timers::callback::Timeout;
 use leptos::task::spawn_local;
-use wasm_bindgen::closure::Closure;
 use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_futures::JsFuture;
+use web_sys::Blob;
 use web_sys::js_sys::{Array, Uint8Array};
-use web_sys::{Blob, Event, MessageEvent, Worker};
 
 use super::mail;
 use super::messages::{Answer, How, Request};
 use super::reader::Reader;
-use super::start_worker;
+use super::started::Started;
 use crate::browser::file;
 use buslens::tool::log::{Log, Source};
 
@@ -36,7 +35,7 @@ pub struct Client {
 
 /// A worker and what waits until it can hear.
 struct Running {
-    worker: Worker,
+    worker: Started,
     /// `None` once it can hear.
     waiting: Option<Vec<JsValue>>,
     /// It holds the log, or reads it.
@@ -47,17 +46,6 @@ struct Running {
     size: f64,
     /// Ends when it has been silent for too long.
     watch: Option<Timeout>,
-    /// They live as long as it does.
-    _hear: Closure<dyn Fn(MessageEvent)>,
-    _fail: Closure<dyn Fn(Event)>,
-}
-
-impl Drop for Running {
-    fn drop(&mut self) {
-        self.worker.set_onmessage(None);
-        self.worker.set_onerror(None);
-        self.worker.terminate();
-    }
 }
 
 /// A worker that says nothing for so long, in milliseconds, although it was asked, is gone: a browser
@@ -184,7 +172,7 @@ impl Client {
                 running.watch = Some(self.watch(patience, running.size));
                 match &mut running.waiting {
                     Some(waiting) => waiting.push(mail),
-                    None => drop(running.worker.post_message(&mail)),
+                    None => drop(running.worker.post(&mail)),
                 }
             }
             None => {
@@ -198,22 +186,12 @@ impl Client {
 
     /// Starts the module of the page once more, as a worker.
     fn start(&self) -> Option<Running> {
-        let worker = start_worker().ok()?;
         let me = self.me.clone();
-        let hear = Closure::<dyn Fn(MessageEvent)>::new(move |event: MessageEvent| {
+        let worker = Started::start(move |mail| {
             if let Some(client) = me.upgrade() {
-                client.heard(&event);
+                client.heard(mail);
             }
-        });
-        let me = self.me.clone();
-        let fail = Closure::<dyn Fn(Event)>::new(move |event: Event| {
-            event.prevent_default();
-            if let Some(client) = me.upgrade() {
-                client.failed();
-            }
-        });
-        worker.set_onmessage(Some(hear.as_ref().unchecked_ref()));
-        worker.set_onerror(Some(fail.as_ref().unchecked_ref()));
+        })?;
         Some(Running {
             worker,
             waiting: Some(Vec::new()),
@@ -221,13 +199,11 @@ impl Client {
             in_parts: false,
             size: 0.0,
             watch: None,
-            _hear: hear,
-            _fail: fail,
         })
     }
 
-    fn heard(&self, event: &MessageEvent) {
-        let Some((answer, beside)) = mail::read::<Answer>(&event.data()) else { return self.failed() };
+    fn heard(&self, mail: &JsValue) {
+        let Some((answer, beside)) = mail::read::<Answer>(mail) else { return self.failed() };
         if let Some(running) = &mut *self.worker.borrow_mut() {
             match answer {
                 Answer::Progress { .. } => running.in_parts = true,
@@ -239,7 +215,7 @@ impl Client {
                 running.watch = Some(self.watch(PATIENCE, running.size));
                 for mail in running.waiting.take().unwrap_or_default() {
                     // It takes whatever this page writes.
-                    let _ = running.worker.post_message(&mail);
+                    let _ = running.worker.post(&mail);
                 }
             }
         }

@@ -11,23 +11,16 @@ pub mod messages;
 mod others;
 mod reader;
 mod serve;
+mod started;
 
-use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsCast, JsValue};
 // Leptos has no executor where nothing is mounted.
 use wasm_bindgen_futures::spawn_local;
-use web_sys::{DedicatedWorkerGlobalScope, Worker, js_sys};
+use web_sys::{DedicatedWorkerGlobalScope, js_sys};
 
 use crate::later;
 
 pub use serve::serve;
-
-#[wasm_bindgen]
-extern "C" {
-    /// Only the boot script knows where the module is: in files of a server, or in the document.
-    #[wasm_bindgen(js_name = startWorker, catch)]
-    fn start_worker() -> Result<Worker, JsValue>;
-}
 
 /// Whether this module runs as a worker.
 pub fn is_worker() -> bool {
