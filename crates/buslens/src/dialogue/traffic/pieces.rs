@@ -8,7 +8,7 @@ use super::entry::{Hint, NO_TIME, Role};
 use super::judge::Weak;
 use super::lane::{PAUSE, Row};
 use crate::dialogue::evidence::{self, Reading};
-use crate::dialogue::foreign::FOREIGN;
+use crate::dialogue::foreign::{self, FOREIGN};
 use crate::field::Facts;
 use crate::frame::split::{Begins, Place, Waiting};
 use crate::frame::{
@@ -108,7 +108,7 @@ impl Traffic {
             self.shapes.count(facts.shape, false);
             return self.passed.push((row.line, row.offset));
         }
-        if let Some(foreign) = FOREIGN.iter().position(|foreign| foreign.certain && (foreign.fits)(bytes)) {
+        if let Some(foreign) = foreign::certain(bytes) {
             self.foreign_protocols[foreign] += 1;
             return self.passed.push((row.line, row.offset));
         }
