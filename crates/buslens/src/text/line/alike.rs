@@ -2,12 +2,12 @@
 //! bytes. They are read by comparing them, and what comes out is what [`Scan::read`] would make of them.
 //!
 //! A line is a pattern for others where nothing that it says can depend on the values of its numbers: its bytes are
-//! hex, two digits each with the same around them (`01 03`, `0x01, 0x03`, `01h 03h`, `0103`); what stands before and
-//! behind them are the same words and marks; of the numbers before them, the time is read again, and the others are so
-//! long that they are no bytes, or bytes whatever their value. Where more than brackets stands behind the bytes, there
-//! have to be as many. A line without bytes is a pattern, too, where it says anything.
+//! hex, two digits each with the same around them (`01 03`, `0x01, 0x03`, `01h 03h`, `0103`, `"\x01\x03"`); what stands
+//! before and behind them are the same words and marks; of the numbers before them, the time is read again, and the
+//! others are so long that they are no bytes, or bytes whatever their value. Where more than brackets stands behind the
+//! bytes, there have to be as many. A line without bytes is a pattern, too, where it is there again.
 
-use super::{Scan, Style};
+use super::{Numbers, Scan, Style};
 use crate::field::{Facts, Span};
 use crate::text::characters::{DIGITS, decimal, is_bits, is_digit, is_serial_number, separator};
 use crate::text::dump::has_offset;
@@ -52,8 +52,8 @@ pub enum Like<'a> {
     Told { told: Told, bytes: &'a [u8], time: Option<i64>, pairs: Pairs, port: &'a [u8] },
 }
 
-/// Where bytes stand as pairs of hex digits at equal distances: where the first one begins, how long the mark before its
-/// digits is, how wide it is with its marks, and how far it is to the next.
+/// Where bytes stand as pairs of hex digits at equal distances: where the first one begins, how long the mark before
+/// its digits is, how wide it is with its marks, and how far it is to the next.
 #[derive(Clone, Copy, Debug)]
 pub struct Pairs {
     from: usize,
@@ -173,7 +173,9 @@ impl Alike {
         const NEAR: usize = 32;
         let Some(pattern) = self.latest.and_then(|latest| self.patterns.get_mut(latest)) else { return };
         let table = memchr::memchr_iter(b'|', line).nth(1).is_some();
-        let row = pattern.row.as_ref().is_some_and(|row| !row.shows_characters());
+        let Pattern { row, scan, .. } = &**pattern;
+        let sure = |row: &Row| scan.hex_only() || scan.runs[row.run].marked;
+        let row = row.as_ref().is_some_and(|row| !row.shows_characters() && sure(row));
         if !table && row && pattern.scan.runs.len() <= NEAR {
             pattern.told = Some(told);
         }
@@ -206,9 +208,7 @@ impl Alike {
         self.latest = Some(self.patterns.len());
         self.patterns.push(Box::new(pattern));
     }
-}
 
-impl Alike {
     /// Whether a line has bytes, or seems to be there again: most others are of no use.
     fn comes_again(&mut self, line: &[u8], scan: &Scan) -> bool {
         let before = &mut self.once[line.len() % HINTS];
@@ -280,14 +280,17 @@ impl Pattern {
     fn of(line: &[u8], scan: &Scan) -> Option<Self> {
         let longest = scan.runs.iter().enumerate().max_by_key(|(_, run)| run.len());
         let (row, end) = match longest.filter(|(_, run)| run.len() >= SHORTEST) {
-            Some((index, run)) => (Some(Row::of(line, scan, index)?), run.span.from),
+            Some((index, _)) => {
+                let row = Row::of(line, scan, index)?;
+                let end = row.pairs.from;
+                (Some(row), end)
+            }
             // A number by itself may be the end of a dump.
             None if scan.words == 0 || scan.slips > 0 || line.iter().all(is_of_number) => return None,
+            None if memchr::memchr2(HOLE, b'\\', line).is_some() => return None,
             None => (None, line.len()),
         };
-        // A backslash makes bytes of characters.
-        let others = scan.column || memchr::memchr2(HOLE, b'\\', line).is_some();
-        if others || has_offset(line) {
+        if scan.column || has_offset(line) {
             return None;
         }
         let mut head = line[..end].to_vec();
@@ -356,22 +359,30 @@ impl Row {
     /// How the bytes of a run stand in its line, which is the longest one.
     fn of(line: &[u8], scan: &Scan, index: usize) -> Option<Self> {
         let run = &scan.runs[index];
-        let (before, own, tail) = (&line[..run.span.from], run.span.of(line), &line[run.span.to..]);
+        let place = Span::new(scan.places[run.first].from, scan.places[run.end - 1].to);
+        let (before, own, tail) = (&line[..place.from], place.of(line), &line[place.to..]);
+        let quoted = run.style == Style::Escaped && before.len() == run.span.from + 1;
         let (mark, width, gap) = match run.style {
             Style::Contiguous if run.tokens == 1 => (0, 2, 0),
+            Style::Escaped if run.tokens == 1 && quoted => (2, 4, 0),
             _ if !(1..=WIDEST).contains(&run.gap) => return None,
             Style::Separated => (0, 2, run.gap),
             Style::Prefixed => (2, 4, run.gap),
             Style::Suffixed => (0, 3, run.gap),
-            _ => return None,
+            Style::Contiguous | Style::Escaped => return None,
         };
         let step = width + gap;
         let even = (run.tokens == run.len() || gap == 0)
             && run.breaks.is_empty()
-            && run.span.len() + gap == run.len() * step;
-        let prefixed = || mark == 0 || own.chunks(step).all(|byte| byte.starts_with(b"0x"));
+            && run.span.len() == own.len() + if quoted { 2 } else { 0 }
+            && own.len() + gap == run.len() * step;
+        let marks = || match mark {
+            0 => true,
+            _ => [b"0x", b"\\x"].iter().any(|mark| own.chunks(step).all(|byte| byte.starts_with(*mark))),
+        };
+        let decimal = scan.numbers == Some(Numbers::Decimal);
         if !even
-            || !(if run.marked { prefixed() } else { scan.hex_only() })
+            || !(if run.marked { marks() } else { !decimal })
             || scan.slips > usize::from(counts(scan, index))
         {
             return None;
@@ -382,6 +393,11 @@ impl Row {
             && !tail.iter().any(|c| is_digit(*c))
             && !shows_characters(tail, gap.len());
         let length = (!plain && !words).then_some(own.len());
+        // What could be decimal may go on with other numbers, by its value; and it may be below zero, or in a table.
+        let sure = run.marked || gap.is_empty() || scan.hex_only();
+        if !sure && (length.is_some() || gap.contains(&b'-') || line.contains(&b'|')) {
+            return None;
+        }
         // What could be one number with the first byte.
         let apart = match before {
             [.., a, b':' | b'/'] => !is_digit(*a),
@@ -390,13 +406,13 @@ impl Row {
         };
         // A date may go on as a time.
         let time = scan.time_place;
-        let date =
-            time.filter(|time| time.from < run.span.from).is_some_and(|time| time.to + 4 > run.span.from)
-                && gap.first() != Some(&b' ');
+        let date = time.filter(|time| time.from < place.from).is_some_and(|time| time.to + 4 > place.from)
+            && gap.first() != Some(&b' ');
         let other = scan.runs[..index].last().map(|other| &before[other.span.to..]);
         let joins = other.is_some_and(|between| separator(between).is_some());
-        // Others with so many bytes may be shown as characters behind them.
-        let others = scan.runs.iter().filter(|run| run.len() >= SHORTEST).count() > 1;
+        // Others with so many bytes may be shown as characters behind them, and a backslash makes bytes of characters.
+        let others = scan.runs.iter().filter(|run| run.len() >= SHORTEST).count() > 1
+            || before.iter().chain(tail).any(|c| matches!(*c, HOLE | b'\\'));
         if !apart || date || joins || others || gap.first() == Some(&b'#') {
             return None;
         }
@@ -404,12 +420,14 @@ impl Row {
         let marks = signs(0, mark) | signs(mark + 2, width);
         let cell = [word(&own[..step], 0), marks | signs(width, step), marks];
         let mut tail = tail.to_vec();
-        if let Some(time) = time.filter(|time| time.from >= run.span.to) {
-            let time = Span::new(time.from - run.span.to, time.to - run.span.to);
+        if let Some(time) = time.filter(|time| time.from >= place.to) {
+            let time = Span::new(time.from - place.to, time.to - place.to);
             tail[time.from..time.to].iter_mut().filter(|c| is_digit(**c)).for_each(|c| *c = HOLE);
         }
-        let pairs = Pairs { from: run.span.from, mark, width, step };
-        Some(Self { run: index, pairs, cell, tail: Head::new(tail), length })
+        let pairs = Pairs { from: place.from, mark, width, step };
+        let row = Self { run: index, pairs, cell, tail: Head::new(tail), length };
+        // What stands between its bytes may differ.
+        row.compare(line, &line[place.from..], scan, &mut Vec::new()).map(|()| row)
     }
 
     /// Compares the bytes of a line and what stands behind them; `behind` begins with them.
@@ -420,32 +438,39 @@ impl Row {
         tail.split(behind)?;
         let whole = own.len() + step - width;
         let count = whole / step;
-        // "ach" is a word.
-        let word_like =
-            |byte: &[u8]| !byte.iter().any(|c| is_digit(*c)) && !byte.iter().all(u8::is_ascii_uppercase);
         let by_value = match (step, width) {
             (2, _) => is_value(own),
-            (_, 3) => own.chunks(*step).any(|byte| word_like(&byte[..2])),
+            (_, 3) => own.chunks(*step).any(is_word),
             _ => false,
         };
         if whole % step != 0 || count < SHORTEST || by_value {
             return None;
         }
         let (mut all, mut padded, mut differs) = (0, false, 0);
-        let shift = 8 * mark;
-        let mut byte = |nth: usize, around: u64| {
-            let word = word(line, from + nth * step);
-            differs |= (word ^ text) & around;
-            let [high, low] = [word >> shift, word >> shift >> 8].map(|word| DIGITS[usize::from(word as u8)]);
+        let mut byte = |cell: u64, around: u64| {
+            differs |= (cell ^ text) & around;
+            let digits = cell >> (8 * mark);
+            let [high, low] = [digits, digits >> 8].map(|digit| DIGITS[usize::from(digit as u8)]);
             all |= high | low;
             padded |= high == 0;
             high.wrapping_mul(16).wrapping_add(low)
         };
-        bytes.extend((0..count - 1).map(|nth| byte(nth, *around)));
-        bytes.push(byte(count - 1, *at_end));
+        bytes.resize(count, 0);
+        let (last, others) = bytes.split_last_mut()?;
+        let mut places = others.iter_mut();
+        // The last few may not fill a word.
+        let words = line[*from..].windows(WORD).step_by(*step);
+        for (word, place) in words.zip(places.by_ref()) {
+            *place = byte(self::word(word, 0), *around);
+        }
+        let rest = count - 1 - places.len();
+        for (nth, place) in (rest..).zip(places) {
+            *place = byte(word(line, from + nth * step), *around);
+        }
+        *last = byte(word(line, from + (count - 1) * step), *at_end);
         // What stands behind them may go on with them.
         let run = &scan.runs[self.run];
-        let odd = self.length.is_some() && *step > 2 && run.padded != (padded && !run.marked);
+        let odd = self.length.is_some() && step > width && run.padded != (padded && !run.marked);
         (differs == 0 && all <= 15 && !odd).then_some(())
     }
 
@@ -467,14 +492,20 @@ impl Row {
         }
         if !hex_only {
             // A byte with a mark is the same in a list of decimal numbers.
+            let value = |byte: &u8| match (run.marked, run.style) {
+                (true, _) => *byte,
+                (_, Style::Contiguous) => 0,
+                _ => byte / 16 * 10 + byte % 16,
+            };
             decimal.resize(hex.len(), 0);
-            decimal[first..end].copy_from_slice(bytes);
+            decimal[first..end].iter_mut().zip(bytes).for_each(|(decimal, byte)| *decimal = value(byte));
         }
+        run.span.to = run.span.to + bytes.len() * pairs.step - run.len() * pairs.step;
         run.end = end;
-        run.span.to = pairs.from + (bytes.len() - 1) * pairs.step + pairs.width;
-        if pairs.step > 2 {
+        if pairs.step > pairs.width {
             (run.tokens, run.since, run.last) = (bytes.len(), bytes.len(), end - 1);
             run.padded = bytes.iter().any(|byte| *byte < 0x10) && !run.marked;
+            run.decimal = run.marked || !hex_only && bytes.iter().all(|byte| *byte < 0xA0 && byte % 16 < 10);
         }
         scan.pairs = pairs.digits();
         // What stands behind them may show them as characters.
@@ -511,6 +542,12 @@ fn shows_characters(tail: &[u8], gap: usize) -> bool {
     wide || tail.first() == Some(&b'|')
 }
 
+/// Whether two hex digits with an h behind them are a word: "ach".
+fn is_word(byte: &[u8]) -> bool {
+    let digits = &byte[..byte.len().min(2)];
+    !digits.iter().any(|c| is_digit(*c)) && !digits.iter().all(u8::is_ascii_uppercase)
+}
+
 /// Whether hex digits are a word or the bits of a number, by their value.
 fn is_value(digits: &[u8]) -> bool {
     !digits.iter().any(|c| is_digit(*c)) || is_bits(digits)
@@ -543,14 +580,13 @@ fn is_free(line: &[u8], number: Span) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::text::line::{Numbers, Start};
+    use crate::text::line::Start;
 
     /// All that a scan tells of its line.
     fn told(scan: &Scan) -> String {
-        let Scan {
-            hex, decimal, places, runs, breaks, time, words, slips, column, sender, both, port, ..
-        } = scan;
+        let Scan { hex, places, runs, breaks, time, words, slips, column, sender, both, port, .. } = scan;
         let (telegrams, leftovers) = (scan.of_telegrams, scan.of_leftovers);
+        let decimal: Vec<_> = runs.iter().map(|run| scan.decimal_bytes(run)).collect();
         format!(
             "{hex:?} {decimal:?} {places:?} {runs:?} {breaks:?} {time:?} {words} {slips} {column} {sender:?} {both} \
              {port:?} {telegrams} {leftovers}"
@@ -606,6 +642,8 @@ mod tests {
             ("{\"data\":\"01 03 00 C8 00 03\"}", "{\"data\":\"FF 03 10 C8 00\"}"),
             ("==>  [01] [03] [00] [C8] [00]", "==>  [81] [03] [1F] [C8] [00] [03]"),
             ("rx: 0x01 0x03 0x00 0xC8 0x00, len 5", "rx: 0x11 0x13 0x10 0xC8 0x00, len 5"),
+            (r#"write(3, "\x01\x03\x00\xc8\x00", 5) = 5"#, r#"write(3, "\x81\x03\x5f\x5C\x22", 5) = 5"#),
+            (r"write b'\x01\x03\x00\xc8\x00'", r"write b'\x81\x03\x02\x5f\x27\x00\xc8'"),
             ("TX;01h 03h 00h C8h 00h;ok", "TX;81h 13h FFh 0ah f0h 1Fh;ok"),
             ("12345\tTX\t01 03 00 C8 00\tOK", "11011\tTX\t81 13 10 C8 10 12\tOK"),
         ] {
@@ -613,6 +651,15 @@ mod tests {
         }
         let marked = "rx 0x01 0x03 0x00 0xC8 0x00";
         assert!(is_like(marked, &marked.replace("C8", "1F"), None));
+        for [first, second] in [
+            ["TX: 01 03 00 C8 00 Modbus", "TX: 81 13 10 C8 10 12 Modbus"],
+            ["TX: 01 03 00 C8 00 Modbus", "TX: 81 13 10 28 10 12 Modbus"],
+            ["TX: 01 03 00 18 00 Modbus", "TX: 81 13 10 C8 10 12 Modbus"],
+            ["[01][03][00][C8][00][03]", "[11][03][10][98][00][03][04]"],
+            ["Tx=010300c800038435;", "Tx=110310281003;"],
+        ] {
+            assert!(is_like(first, second, None), "{first}");
+        }
         // Milliseconds since 1970.
         assert!(is_like(
             "1775000000001 tx 01 03 00 C8 00",
@@ -664,6 +711,9 @@ mod tests {
             ("TX 01   03   00   C8   00", "TX 01 , 03 , 00 , C8 , 00"),
             ("TX 0103 00C8 0003", "TX 010300C80003"),
             ("TX 0x01 , 0x03 , 0x00 , 0xC8 , 0x00", "TX 0x01 ; 0x03 ; 0x00 ; 0xC8 ; 0x00"),
+            (r#"write(3, "\x01\x03\x00\xc8\x00", 5) = 5"#, r#"write(3, "\x81\x03\x5f\x5C\x22\x00", 6) = 6"#),
+            (r"write b'\x01\x03\x00\xc8\x00'", r"write b'\x81\x03\x02A\x27\x00\xc8'"),
+            (r"write b'\x01\x03\x00\xc8\x00'", r"write b'\x81\x03\x02\x41\x27\x00\xcg'"),
             ("TX;01h 03h 00h C8h 00h;ok", "TX;81h 13h ffh 0ah 10h 1Fh;ok"),
             ("TX;01h 03h 00h C8h 00h;ok", "TX;81h 13h 00h fFh 10h 1Fh;ok"),
             ("TX;01h 03h 00h C8h 00h;ok", "TX;81h 13h 00h 0aH 10h 1Fh;ok"),
@@ -674,7 +724,15 @@ mod tests {
         ] {
             assert!(!is_like(first, second, Some(Numbers::Hex)), "{first} {second}");
         }
-        assert!(!is_like("01 03 00 C8 00", "11 03 00 C8 00", None), "they could be decimal");
+        for [first, second] in [
+            ["TX 01 03 00 C8 00 200", "TX 01 03 00 12 00 200"],
+            ["TX 01 -03 -00 -C8 -00", "TX 01 -13 -10 -12 -10"],
+            ["12345 TX 01 03 00 C8 00", "54321 TX 01 03 00 C8 00"],
+            ["TX |01 03 00 C8 00", "TX |01 03 00 12 00"],
+        ] {
+            assert!(!is_like(first, second, None), "{first}: they could be decimal");
+        }
+        assert!(!is_like("TX 01 03 00 12 00", "TX 01 03 00 12 00", Some(Numbers::Decimal)));
     }
 
     #[test]
