@@ -409,7 +409,7 @@ impl Row {
         let date = time.filter(|time| time.from < place.from).is_some_and(|time| time.to + 4 > place.from)
             && gap.first() != Some(&b' ');
         let other = scan.runs[..index].last().map(|other| &before[other.span.to..]);
-        let joins = other.is_some_and(|between| separator(between).is_some());
+        let joins = !quoted && other.is_some_and(|between| separator(between).is_some());
         // Others with so many bytes may be shown as characters behind them, and a backslash makes bytes of characters.
         let others = scan.runs.iter().filter(|run| run.len() >= SHORTEST).count() > 1
             || before.iter().chain(tail).any(|c| matches!(*c, HOLE | b'\\'));
