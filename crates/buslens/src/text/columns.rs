@@ -123,6 +123,9 @@ impl Columns {
     /// The block ends: gives its columns.
     pub fn end(&mut self, sender: Option<Sender>, sink: &mut dyn FnMut(Event<'_>)) {
         let lines = std::mem::take(&mut self.lines);
+        if lines == 0 {
+            return;
+        }
         for mut column in self.columns.drain(..) {
             let Column { bytes, decimal, places, .. } = &mut column;
             if lines >= SHORTEST && bytes.len() >= SHORTEST {

@@ -269,9 +269,16 @@ const WORD: usize = 8;
 #[inline]
 fn word(text: &[u8], at: usize) -> u64 {
     let rest = &text[at..];
-    match (rest.first_chunk(), text.last_chunk()) {
-        (Some(word), _) => u64::from_le_bytes(*word),
-        (None, Some(word)) if !rest.is_empty() => u64::from_le_bytes(*word) >> (8 * (WORD - rest.len())),
+    match rest.first_chunk() {
+        Some(word) => u64::from_le_bytes(*word),
+        None => last_word(text, rest),
+    }
+}
+
+/// The word of the rest of a text that is shorter.
+fn last_word(text: &[u8], rest: &[u8]) -> u64 {
+    match text.last_chunk() {
+        Some(word) if !rest.is_empty() => u64::from_le_bytes(*word) >> (8 * (WORD - rest.len())),
         _ => rest.iter().rev().fold(0, |word, c| word << 8 | u64::from(*c)),
     }
 }
@@ -446,31 +453,26 @@ impl Row {
         if whole % step != 0 || count < SHORTEST || by_value {
             return None;
         }
-        let (mut all, mut padded, mut differs) = (0, false, 0);
+        let (mut all, mut differs) = (0, 0);
         let mut byte = |cell: u64, around: u64| {
             differs |= (cell ^ text) & around;
             let digits = cell >> (8 * mark);
             let [high, low] = [digits, digits >> 8].map(|digit| DIGITS[usize::from(digit as u8)]);
             all |= high | low;
-            padded |= high == 0;
             high.wrapping_mul(16).wrapping_add(low)
         };
         bytes.resize(count, 0);
         let (last, others) = bytes.split_last_mut()?;
-        let mut places = others.iter_mut();
-        // The last few may not fill a word.
-        let words = line[*from..].windows(WORD).step_by(*step);
-        for (word, place) in words.zip(places.by_ref()) {
-            *place = byte(self::word(word, 0), *around);
+        let mut at = *from;
+        for place in others {
+            *place = byte(word(line, at), *around);
+            at += step;
         }
-        let rest = count - 1 - places.len();
-        for (nth, place) in (rest..).zip(places) {
-            *place = byte(word(line, from + nth * step), *around);
-        }
-        *last = byte(word(line, from + (count - 1) * step), *at_end);
+        *last = byte(word(line, at), *at_end);
         // What stands behind them may go on with them.
         let run = &scan.runs[self.run];
-        let odd = self.length.is_some() && step > width && run.padded != (padded && !run.marked);
+        let padded = || bytes.iter().any(|byte| *byte < 0x10) && !run.marked;
+        let odd = self.length.is_some() && step > width && run.padded != padded();
         (differs == 0 && all <= 15 && !odd).then_some(())
     }
 
