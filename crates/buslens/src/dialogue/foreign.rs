@@ -37,6 +37,18 @@ pub static FOREIGN: &[Foreign] = &[
     Foreign::certain("IEC 60870-5-101 or -103", is_telecontrol),
 ];
 
+/// The place in [`FOREIGN`] of the protocol that a piece is a telegram of beyond doubt.
+#[inline]
+pub fn certain(bytes: &[u8]) -> Option<usize> {
+    // All of them begin with marks that few others begin with.
+    match bytes {
+        [0x55 | 0x5A | 0x68 | 0x7E | 0xAA | 0xEB | 0xFE, ..] => {
+            FOREIGN.iter().position(|foreign| foreign.certain && (foreign.fits)(bytes))
+        }
+        _ => None,
+    }
+}
+
 /// The place of FT1.2 in [`FOREIGN`]: the only one whose frames also pass as PROFIBUS.
 pub const FT12: usize = 0;
 
@@ -121,9 +133,10 @@ fn is_din_66019(bytes: &[u8]) -> bool {
 
 /// AA 55, …, sum of all in two bytes.
 fn is_aa55(bytes: &[u8]) -> bool {
-    let Some((covered, [high, low])) = bytes.split_last_chunk::<2>() else { return false };
+    let [0xAA, 0x55, .., high, low] = bytes else { return false };
+    let covered = &bytes[..bytes.len() - 2];
     let sum = covered.iter().fold(0_u16, |sum, byte| sum.wrapping_add(u16::from(*byte)));
-    bytes.starts_with(&[0xAA, 0x55]) && sum == u16::from_be_bytes([*high, *low])
+    sum == u16::from_be_bytes([*high, *low])
 }
 
 /// Two bytes that mark where a frame begins, as makers choose them, and the CRC of Modbus over what is behind them,
@@ -147,7 +160,9 @@ mod tests {
     use super::*;
 
     fn named(bytes: &[u8]) -> Option<&'static str> {
-        FOREIGN.iter().find(|foreign| (foreign.fits)(bytes)).map(|foreign| foreign.name)
+        let found = FOREIGN.iter().find(|foreign| (foreign.fits)(bytes))?;
+        assert_eq!(certain(bytes).map(|place| FOREIGN[place].name), found.certain.then_some(found.name));
+        Some(found.name)
     }
 
     #[test]

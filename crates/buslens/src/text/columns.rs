@@ -8,13 +8,16 @@
 use std::hash::{Hash, Hasher};
 
 use super::line::Scan;
-use crate::field::Span;
+use super::{Event, Piece, SHORTEST, Sender};
+use crate::field::{Facts, Span};
 
 /// The columns of the lines in hand.
 #[derive(Debug, Default)]
 pub(super) struct Columns {
     lines: usize,
     columns: Vec<Column>,
+    /// Those of blocks before: most blocks are nothing but a line with a number in it, which shall not allocate.
+    spare: Vec<Column>,
     /// Where the first line of the block begins in the file.
     offset: u64,
     line: u32,
@@ -22,12 +25,12 @@ pub(super) struct Columns {
 
 /// Bytes below each other.
 #[derive(Debug, Hash)]
-pub(super) struct Column {
+struct Column {
     key: Key,
-    pub bytes: Vec<u8>,
-    pub decimal: Vec<u8>,
+    bytes: Vec<u8>,
+    decimal: Vec<u8>,
     /// Counted from the beginning of the block.
-    pub places: Vec<Span>,
+    places: Vec<Span>,
 }
 
 /// Which column of its line a number is in.
@@ -103,8 +106,9 @@ impl Columns {
         let column = match self.columns.iter_mut().find(|column| column.key == key) {
             Some(column) => column,
             None => {
-                self.columns.push(Column { key, bytes: Vec::new(), decimal: Vec::new(), places: Vec::new() });
-                self.columns.last_mut().expect("one was added")
+                let fresh = || Column { key, bytes: Vec::new(), decimal: Vec::new(), places: Vec::new() };
+                let spare = self.spare.pop().map(|spare| Column { key, ..spare });
+                self.columns.push_mut(spare.unwrap_or_else(fresh))
             }
         };
         column.bytes.push(hex);
@@ -116,13 +120,34 @@ impl Columns {
         self.lines == 0
     }
 
-    /// The block ends: its columns, with the number and the place of its first line.
-    pub fn end(&mut self) -> (u32, u64, Vec<Column>) {
-        /// Every telegram has at least so many bytes.
-        const SHORTEST: usize = 4;
+    /// The block ends: gives its columns.
+    pub fn end(&mut self, sender: Option<Sender>, sink: &mut dyn FnMut(Event<'_>)) {
         let lines = std::mem::take(&mut self.lines);
-        let mut columns = std::mem::take(&mut self.columns);
-        columns.retain(|column| lines >= SHORTEST && column.bytes.len() >= SHORTEST);
-        (self.line, self.offset, columns)
+        if lines == 0 {
+            return;
+        }
+        for mut column in self.columns.drain(..) {
+            let Column { bytes, decimal, places, .. } = &mut column;
+            if lines >= SHORTEST && bytes.len() >= SHORTEST {
+                sink(Event::Piece(Piece {
+                    bytes,
+                    decimal: (decimal != bytes).then_some(decimal),
+                    breaks: &[],
+                    places,
+                    pairs: None,
+                    line: self.line,
+                    offset: self.offset,
+                    time: None,
+                    sender,
+                    port: None,
+                    joins: false,
+                    facts: Facts { column: true, ..Facts::default() },
+                }));
+            }
+            bytes.clear();
+            decimal.clear();
+            places.clear();
+            self.spare.push(column);
+        }
     }
 }

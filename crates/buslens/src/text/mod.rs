@@ -307,13 +307,13 @@ impl Reader {
             && self.form.marks.is_none()
             && self.form.flow.is_none()
             && self.header.is_none()
-            && self.list.bytes.is_empty()
-            && self.columns.is_empty();
+            && self.list.bytes.is_empty();
         let alike = !self.long
             && match self.alike.read(line, &mut self.scan, apart) {
                 Like::None => false,
                 Like::Read => true,
                 Like::Told { told: Told { facts, sender }, bytes, time, pairs, port } => {
+                    self.columns.end(None, sink);
                     self.scan.places.clear();
                     self.scan.places.extend(pairs.places(bytes.len()));
                     return sink(Event::Piece(Piece {
@@ -670,24 +670,7 @@ impl Reader {
 
     fn end_columns(&mut self, sink: &mut dyn FnMut(Event<'_>)) {
         let sender = self.header.as_ref().and_then(|header| header.sender);
-        let (line, offset, columns) = self.columns.end();
-        for column in &columns {
-            let decimal = (column.decimal != column.bytes).then_some(column.decimal.as_slice());
-            sink(Event::Piece(Piece {
-                bytes: &column.bytes,
-                decimal,
-                breaks: &[],
-                places: &column.places,
-                pairs: None,
-                line,
-                offset,
-                time: None,
-                sender,
-                port: None,
-                joins: false,
-                facts: Facts { column: true, ..Facts::default() },
-            }));
-        }
+        self.columns.end(sender, sink);
     }
 }
 

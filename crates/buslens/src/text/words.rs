@@ -298,10 +298,32 @@ static FIRST: [u8; 27] = {
     first
 };
 
+/// A bit for each [`outline`] that one of the [`WORDS`] has: most other words have none of them.
+static OUTLINES: [u64; 16] = {
+    let mut outlines = [0; 16];
+    let mut at = 0;
+    while at < WORDS.len() {
+        let outline = outline(WORDS[at].0.as_bytes());
+        outlines[outline / 64] |= 1 << (outline % 64);
+        at += 1;
+    }
+    outlines
+};
+
+/// A number below 1024 for the length of a word and its letters at both ends, small or not.
+const fn outline(word: &[u8]) -> usize {
+    let [first, last] = [word[0] & 0x1F, word[word.len() - 1] & 0x1F];
+    (first as usize * 32 + last as usize + word.len() * 73) % 1024
+}
+
 /// What `word` is about, in whatever letters it is written.
 pub fn word(word: &[u8]) -> Option<About> {
     const LONGEST: usize = 11;
     if !(2..=LONGEST).contains(&word.len()) {
+        return None;
+    }
+    let outline = outline(word);
+    if OUTLINES[outline / 64] >> (outline % 64) & 1 == 0 {
         return None;
     }
     let letter = word[0].to_ascii_lowercase().checked_sub(b'a')?;
@@ -316,7 +338,11 @@ pub fn part(name: &[u8]) -> Option<Sender> {
     let mut from = 0;
     (1..name.len()).filter(begins).chain([name.len()]).find_map(|to| {
         let part = &name[std::mem::replace(&mut from, to)..to];
-        match word(part).filter(|_| part.len() < name.len())? {
+        // What has no parts is a word.
+        if part.len() == name.len() {
+            return None;
+        }
+        match word(part)? {
             About::Sender(sender, Strong) => Some(sender),
             _ => None,
         }

@@ -65,8 +65,8 @@ pub struct Traffic {
     pub(super) waiting: Vec<Option<Waiting>>,
     /// Something came on the port since the last mark.
     pub(super) heard: Vec<bool>,
-    /// Units with their functions that had a right telegram: a bit for each.
-    pub(super) seen: Vec<u64>,
+    /// Those that had a right telegram.
+    pub(super) seen: Seen,
     /// The time of the last chunk, to notice midnight.
     pub(super) clock: i64,
     pub(super) days: i64,
@@ -159,7 +159,7 @@ impl Traffic {
             latest_way: None,
             waiting: Vec::new(),
             heard: Vec::new(),
-            seen: vec![0; 256 * 2],
+            seen: Seen::default(),
             clock: NO_TIME,
             days: 0,
             dated: false,
@@ -461,7 +461,7 @@ impl Traffic {
         let protocol = number(&modbus_rtu::PROTOCOL);
         for Framed { length, unit, function, sides } in found {
             let (own, rest) = bytes.split_at(usize::from(*length));
-            self.see(*unit, *function);
+            self.seen.insert(*unit, *function);
             let said = Said { unit: Some(*unit), function: *function, sides: *sides };
             self.enter(index, own, from, kept, protocol, Verdict::Right, Role::Plain, said);
             (from, kept, bytes) = (from + own.len(), kept + own.len(), rest);
@@ -596,7 +596,7 @@ impl Traffic {
         }
         if verdict != Verdict::Wrong {
             let unit = unit.unwrap_or_default();
-            self.see(unit, function);
+            self.seen.insert(unit, function);
             let waiting = &mut self.waiting[usize::from(port)];
             *waiting = Waiting::behind(waiting.as_ref(), unit, function, Told { sides, ..told });
         }
@@ -615,12 +615,34 @@ impl Traffic {
             && waiting.length == Some(u16::from(*count) + 5)
             && asked.wrapping_mul(2) != u16::from(*count)
     }
+}
 
-    /// A unit has a function.
+/// Units with their functions: a bit for each.
+#[derive(Clone, Debug)]
+pub(super) struct Seen(Vec<u64>);
+
+impl Default for Seen {
+    fn default() -> Self {
+        Self(vec![0; 256 * 2])
+    }
+}
+
+impl Seen {
     #[inline]
-    fn see(&mut self, unit: u8, function: u8) {
+    fn place(unit: u8, function: u8) -> (usize, u64) {
         let plain = function & !EXCEPTION;
-        self.seen[usize::from(unit) * 2 + usize::from(plain >> 6)] |= 1 << (plain & 63);
+        (usize::from(unit) * 2 + usize::from(plain >> 6), 1 << (plain & 63))
+    }
+
+    #[inline]
+    pub fn insert(&mut self, unit: u8, function: u8) {
+        let (word, bit) = Self::place(unit, function);
+        self.0[word] |= bit;
+    }
+
+    pub fn contains(&self, unit: u8, function: u8) -> bool {
+        let (word, bit) = Self::place(unit, function);
+        self.0[word] & bit != 0
     }
 }
 

@@ -305,10 +305,10 @@ impl Port {
         }
         // And with its check it stands behind the same without it in one line: that is the copy.
         if (entry.hint, entry.verdict) == (Hint::None, Verdict::Right)
+            && entry.line > 0
             && let Some(place) = self.previous
             && let (before, body) = window.get(place)
             && (before.line, before.verdict) == (entry.line, Verdict::NoCheck)
-            && entry.line > 0
             && own.len() == body.len() + CHECK
             && own.starts_with(body)
         {

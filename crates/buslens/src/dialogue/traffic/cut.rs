@@ -9,7 +9,7 @@
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
-use super::collect::{Latest, Traffic};
+use super::collect::{Latest, Seen, Traffic};
 use super::entries::{Entries, Shift};
 use super::entry::{Entry, NO_TIME, NOBODY, Written};
 use super::judge::{Known, Shapes};
@@ -25,7 +25,7 @@ pub(super) struct Context {
     pub known: Arc<Known>,
     shapes: Shapes,
     in_columns: usize,
-    seen: Vec<u64>,
+    seen: Seen,
     typed: bool,
     turns: bool,
     foreign_protocols: [u32; FOREIGN.len()],

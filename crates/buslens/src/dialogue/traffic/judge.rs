@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-use super::collect::Traffic;
+use super::collect::{Seen, Traffic};
 use super::entry::{Entry, Hint, Role, bytes};
 use crate::dialogue::evidence::{self, CONVERSATION, MISPRINTED, OTHER_KIND, SAME, SEEN};
 use crate::dialogue::{Candidate, Certainty, protocols, turns};
@@ -476,8 +476,8 @@ impl Traffic {
         bits += if entry.verdict == Verdict::Wrong && known.misprinted { MISPRINTED } else { 0 };
         bits += if entry.verdict == Verdict::Right { SAME } else { 0 };
         bits += if copies { SAME } else { 0 };
-        let pair = (entry.unit.unwrap_or_default(), entry.function & !EXCEPTION);
-        bits += if entry.unit.is_some() && known.has_seen(pair) { SEEN } else { 0 };
+        let seen = entry.unit.is_some_and(|unit| known.has_seen(unit, entry.function));
+        bits += if seen { SEEN } else { 0 };
         if known.families.iter().any(|seen| *seen) && !known.families[family as usize] {
             bits += OTHER_KIND;
         }
@@ -627,7 +627,7 @@ pub(super) struct Known {
     /// No check is right, and some that are wrong leave no doubt: they were not computed.
     misprinted: bool,
     /// Units with their functions.
-    seen: HashSet<(u8, u8)>,
+    seen: Seen,
     /// Of which [`Family`] there are some.
     families: [bool; 3],
     /// The telegrams on serial lines by their first bytes, and which sides they can be of.
@@ -644,8 +644,9 @@ impl Known {
         Self { typed, entries, read, threshold, misprinted, families, beginning, ..Self::default() }
     }
 
-    fn has_seen(&self, pair: (u8, u8)) -> bool {
-        self.seen.contains(&pair) || self.beginning.as_ref().is_some_and(|it| it.seen.contains(&pair))
+    fn has_seen(&self, unit: u8, function: u8) -> bool {
+        let before = self.beginning.as_ref().is_some_and(|it| it.seen.contains(unit, function));
+        before || self.seen.contains(unit, function)
     }
 
     /// Learns from the next `count` entries, of which these are `weak`.
@@ -673,7 +674,7 @@ impl Known {
             }
             self.families[family(entry.protocol()) as usize] = true;
             if let Some(unit) = entry.unit {
-                self.seen.insert((unit, entry.function & !EXCEPTION));
+                self.seen.insert(unit, entry.function);
             }
             let own = bytes(entry, &traffic.data);
             if let (true, Some(first)) = (entry.protocol().is(&modbus_rtu::PROTOCOL), own.first_chunk())

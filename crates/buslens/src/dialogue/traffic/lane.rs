@@ -94,8 +94,14 @@ impl Lane {
     /// The chunk that the byte at `at` of the buffer came in.
     #[inline]
     pub(super) fn row(&self, at: usize) -> &Row {
-        let next = self.rows.partition_point(|row| row.from <= at as isize);
-        self.rows.get(next.saturating_sub(1)).unwrap_or(&NO_ROW)
+        // Most came in one.
+        match &self.rows[..] {
+            [row] => row,
+            rows => {
+                let next = rows.partition_point(|row| row.from <= at as isize);
+                rows.get(next.saturating_sub(1)).unwrap_or(&NO_ROW)
+            }
+        }
     }
 
     /// The first `count` bytes are gone.

@@ -1,6 +1,7 @@
 //! Pieces of a text: what in them is proven to be a telegram, what is the beginning of one that goes on in the
 //! next piece, and what may be one.
 
+use std::borrow::Cow;
 use std::hash::{Hash, Hasher};
 
 use super::collect::{Traffic, has_length, is_right, keep};
@@ -8,7 +9,7 @@ use super::entry::{Hint, NO_TIME, Role};
 use super::judge::Weak;
 use super::lane::{PAUSE, Row};
 use crate::dialogue::evidence::{self, Reading};
-use crate::dialogue::foreign::FOREIGN;
+use crate::dialogue::foreign::{self, FOREIGN};
 use crate::field::Facts;
 use crate::frame::split::{Begins, Place, Waiting};
 use crate::frame::{
@@ -108,7 +109,7 @@ impl Traffic {
             self.shapes.count(facts.shape, false);
             return self.passed.push((row.line, row.offset));
         }
-        if let Some(foreign) = FOREIGN.iter().position(|foreign| foreign.certain && (foreign.fits)(bytes)) {
+        if let Some(foreign) = foreign::certain(bytes) {
             self.foreign_protocols[foreign] += 1;
             return self.passed.push((row.line, row.offset));
         }
@@ -321,7 +322,10 @@ impl Traffic {
 
     /// Takes a piece that is written as the characters of a telegram: a frame of Modbus ASCII, or hex text.
     fn characters(&mut self, index: usize, bytes: &[u8], facts: &Facts) -> bool {
-        let decoded = if facts.colon { Some(bytes.to_vec()) } else { modbus_ascii::from_characters(bytes) };
+        let decoded = match facts.colon {
+            true => Some(Cow::Borrowed(bytes)),
+            false => modbus_ascii::from_characters(bytes).map(Cow::Owned),
+        };
         if let Some(telegram) = decoded {
             let verdict = modbus_ascii::ASCII.verdict(&telegram);
             let known = telegram.get(1).is_some_and(|function| self.splitter.knows(*function));

@@ -57,10 +57,9 @@ impl Traffic {
     /// About how many telegrams the next block has, if there are enough.
     #[inline]
     fn block(&self) -> Option<usize> {
+        let ready = self.entries.len().checked_sub(BEHIND).filter(|ready| *ready >= CLEAR_BLOCK)?;
         let clear = self.weak.is_empty() && self.gone.is_empty() && !self.turns && !self.settled.is_empty();
-        let least = if clear { CLEAR_BLOCK } else { BLOCK };
-        let ready = self.entries.len().checked_sub(BEHIND).filter(|ready| *ready >= least)?;
-        Some(ready.min(BLOCK))
+        (clear || ready >= BLOCK).then(|| ready.min(BLOCK))
     }
 
     /// Settles all but the last ones, and the lines before them; so many were read.

@@ -236,6 +236,6 @@ impl Traffic {
         let [unit, code, ..] = *bytes else { return false };
         let (port, function) = (usize::from(self.lanes[index].row(from).port), code & !EXCEPTION);
         let awaited = self.waiting[port].is_some_and(|it| (it.unit, it.function) == (unit, function));
-        awaited || self.seen[usize::from(unit) * 2 + usize::from(function >> 6)] >> (function & 63) & 1 == 1
+        awaited || self.seen.contains(unit, function)
     }
 }

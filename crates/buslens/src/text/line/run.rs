@@ -308,16 +308,18 @@ impl Scan {
         let gap = &line[run.second_at - run.gap..run.second_at];
         let Some(same) = Same::of(run, run.end - run.last, gap, self.numbers) else { return at };
         let mut run = *run;
-        let goes_on = |at: usize| {
-            line.get(at..)
-                .is_some_and(|rest| rest.len() > gap.len() && gap.iter().zip(rest).all(|(a, b)| a == b))
+        let behind_gap = |at: usize| {
+            let rest = &line[at..];
+            let same = rest.len() > gap.len() && gap.iter().zip(rest).all(|(a, b)| a == b);
+            same.then_some(at + gap.len())
         };
-        while goes_on(run.span.to) {
-            let from = run.span.to + gap.len();
+        let mut next = behind_gap(run.span.to);
+        while let Some(from) = next {
             let Some(Number { length, hex, decimal }) = same.number(&line[from..]) else { break };
             let to = from + length;
             // What stands behind the last one may make something else of it.
-            let ends = to == line.len() || goes_on(to);
+            next = behind_gap(to);
+            let ends = to == line.len() || next.is_some();
             let plain = matches!(same, Same::Pairs | Same::Decimal { .. });
             let single = plain && length == 1;
             if !ends || (single && run.padded && run.separator == b' ') {
