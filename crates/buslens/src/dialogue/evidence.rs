@@ -22,7 +22,7 @@
 //! | bare in its line; said who sends it; a label before it | 4; 4; 2 |
 //! | in brackets of its own; marked as bytes; a row of a dump; words of the trade | 3; 2; 3; 3 |
 //! | a number beside it says its length, or its check is named behind it: `[CRC]` | 6 |
-//! | commas between numbers of one digit; one decimal number | −6 |
+//! | commas between numbers of one digit; one decimal number; a phone number | −8 |
 //! | called left over or thrown away | −6 |
 //! | it is of an array of a program, whose brackets, marks and size say nothing | −2 |
 //! | its numbers have two bytes and a mark each, as registers and addresses are written | −8 |
@@ -93,7 +93,7 @@ pub fn place(facts: &Facts) -> i32 {
         + of(facts.dumped, 3)
         + of(facts.of_telegrams, 3)
         + of(facts.counted || facts.check_named, 6)
-        + of(facts.digits, -6)
+        + of(facts.digits, -8)
         + of(facts.of_leftovers, -6)
         + of(facts.words, -8)
 }
@@ -373,7 +373,7 @@ fn function(function: u8) -> i32 {
 }
 
 /// How much a PDU looks like one: its function is known, its length fits, its numbers can be.
-pub(super) fn structure(pdu: &[u8], splitter: &Splitter) -> Option<i32> {
+pub fn structure(pdu: &[u8], splitter: &Splitter) -> Option<i32> {
     Some(function(*pdu.first()?) + numbers(pdu, splitter)?)
 }
 
