@@ -227,10 +227,11 @@ fn without_check(from: usize, bits: i32, cut: bool) -> Reading {
 
 /// The bytes that a frame of Modbus ASCII stands for, with a right LRC.
 fn of_ascii(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
-    /// Of 256 other bytes one is right.
     const LRC: i32 = 8;
     let checked = modbus_ascii::ASCII.verdict(bytes) == Verdict::Right;
-    let inside = structure(modbus_ascii::ASCII.pdu_bytes(bytes), splitter).filter(|_| checked)?;
+    // One of 256 numbers has a right LRC: what is in it must be able to be, too.
+    let can_be = |bits: &i32| checked && *bits > 0;
+    let inside = structure(modbus_ascii::ASCII.pdu_bytes(bytes), splitter).filter(can_be)?;
     let bits = unit(*bytes.first()?) + inside + LRC;
     Some(whole(&modbus_ascii::PROTOCOL, Verdict::Right, bits))
 }

@@ -282,8 +282,9 @@ impl Traffic {
             as_cut(entry);
         }
         entry.sides = copy.unwrap_or(entry.sides);
-        // A request that is known, or whose numbers are those of one, is none of the other side, whatever its line says.
-        if entry.verdict == Verdict::Wrong && entry.sides == [true, false] {
+        // What has the numbers of a request is none of the other side, whatever its line says.
+        let answers = matches!(entry.hint, Hint::Says(Direction::Response) | Hint::Other);
+        if answers && entry.verdict == Verdict::Wrong && entry.sides == [true, false] {
             let structure = pdu(entry, &self.data).and_then(|pdu| evidence::structure(pdu, &self.splitter));
             if structure.is_some_and(|bits| bits >= CONVERSATION) {
                 entry.hint = Hint::None;
