@@ -47,14 +47,25 @@ impl Lights {
         }
     }
 
+    /// What the pointer is over. A view that is taken away loses its signals before what is drawn in it ends, and that
+    /// may still be woken: it finds nothing lit.
+    pub fn pointed(&self) -> Option<Span> {
+        self.pointed.try_get().flatten()
+    }
+
+    /// What is chosen, as [`Self::pointed`].
+    pub fn chosen(&self) -> Option<Chosen> {
+        self.chosen.try_get().flatten()
+    }
+
     /// Whether the pointer is over bytes of `span`.
     pub fn points_at(&self, span: Span) -> bool {
-        self.pointed.get().is_some_and(|pointed| overlap(pointed, span))
+        self.pointed().is_some_and(|pointed| overlap(pointed, span))
     }
 
     /// Whether bytes of `span` are chosen.
     pub fn holds(&self, span: Span) -> bool {
-        self.chosen.get().is_some_and(|chosen| overlap(chosen.span, span))
+        self.chosen().is_some_and(|chosen| overlap(chosen.span, span))
     }
 }
 
@@ -108,7 +119,7 @@ pub fn ByteStrip(
     let stop = RwSignal::new(0);
     let stop_now = Memo::new(move |_| stop.get().min(length.get().min(MOST).saturating_sub(1)));
     let is_stop = Selector::new(move || stop_now.get());
-    let is_chosen = Selector::new(move || lights.chosen.get().map(|chosen| chosen.at));
+    let is_chosen = Selector::new(move || lights.chosen().map(|chosen| chosen.at));
     let choose = move |at: usize| {
         stop.set(at);
         let span = blocks

@@ -13,7 +13,7 @@ pub fn ChosenByte(#[prop(into)] shown: Signal<Option<Shown>>, lights: Lights) ->
     let toasts = expect_context::<Toasts>();
     // The whole of it would be said at each key: which byte of what it is, is enough until somebody goes there.
     Effect::watch(
-        move || lights.chosen.get(),
+        move || lights.chosen(),
         move |chosen, _, _| {
             let Some((shown, chosen)) = shown.get_untracked().zip(*chosen) else { return };
             let places = shares(&shown.detail, shown.bytes(), chosen.at);
@@ -23,7 +23,7 @@ pub fn ChosenByte(#[prop(into)] shown: Signal<Option<Shown>>, lights: Lights) ->
         false,
     );
     move || {
-        let at = lights.chosen.get()?.at;
+        let at = lights.chosen()?.at;
         let shown = shown.get()?;
         let byte = shown.bytes().get(at).copied()?;
         let shares: Vec<_> = shares(&shown.detail, shown.bytes(), at)

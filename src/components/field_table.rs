@@ -107,8 +107,8 @@ pub fn FieldTable(
             for (holds, name) in [
                 (row.place.opens == Some(true), " group"),
                 (row.faulty, " faulty"),
-                (is_own(lights.pointed.get()), " pointed"),
-                (is_own(lights.chosen.get().map(|chosen| chosen.span)), " chosen"),
+                (is_own(lights.pointed()), " pointed"),
+                (is_own(lights.chosen().map(|chosen| chosen.span)), " chosen"),
             ] {
                 class += if holds { name } else { "" };
             }

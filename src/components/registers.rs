@@ -14,8 +14,7 @@ pub fn Registers(shown: Shown, lights: Lights) -> impl IntoView {
     move || {
         let registers = shown.detail.registers?;
         // Registers are two bytes, counted from the first one.
-        let chosen =
-            lights.chosen.get().map(|chosen| chosen.span.from).filter(|from| registers.contains(*from));
+        let chosen = lights.chosen().map(|chosen| chosen.span.from).filter(|from| registers.contains(*from));
         let from = chosen.unwrap_or(registers.from);
         let from = from - (from - registers.from) % 2;
         let bytes = Span::new(from, registers.to).of(shown.bytes()).to_vec();

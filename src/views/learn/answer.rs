@@ -56,7 +56,7 @@ impl Answering {
             lights.chosen.set(Some(Chosen { span: Span::new(at, at + 1), at }));
         }
         Effect::new(move |before: Option<Option<usize>>| {
-            let at = lights.chosen.get().map(|chosen| chosen.at);
+            let at = lights.chosen().map(|chosen| chosen.at);
             if let (Some(byte), Some(before)) = (at, before)
                 && before != at
                 && !self.attempt.with_untracked(Attempt::is_closed)

@@ -171,7 +171,7 @@ fn said(report: &Report) -> Vec<SaidLine> {
 fn Marks() -> impl IntoView {
     let read = expect_context::<ReadState>();
     move || {
-        let lit = read.lights.pointed.get().or(read.lights.chosen.get().map(|chosen| chosen.span));
+        let lit = read.lights.pointed().or(read.lights.chosen().map(|chosen| chosen.span));
         let report = read.report();
         read.with_settled(|text| {
             let shown = report.telegrams.get(read.index()).map(|telegram| telegram.line.places.as_slice());

@@ -104,7 +104,7 @@ impl Lit {
     /// The telegram and the byte that are looked at.
     fn chosen(self) -> Option<(usize, Chosen)> {
         self.lights.with_value(|all| {
-            all.iter().enumerate().find_map(|(index, lights)| Some((index, lights.chosen.get()?)))
+            all.iter().enumerate().find_map(|(index, lights)| Some((index, lights.chosen()?)))
         })
     }
 
