@@ -22,7 +22,7 @@
 //! | bare in its line; said who sends it; a label before it | 4; 4; 2 |
 //! | in brackets of its own; marked as bytes; a row of a dump; words of the trade | 3; 2; 3; 3 |
 //! | a number beside it says its length, or its check is named behind it: `[CRC]` | 6 |
-//! | commas between numbers of one digit; one decimal number | −6 |
+//! | commas between numbers of one digit; one decimal number; a phone number | −8 |
 //! | called left over or thrown away | −6 |
 //! | it is of an array of a program, whose brackets, marks and size say nothing | −2 |
 //! | its numbers have two bytes and a mark each, as registers and addresses are written | −8 |
@@ -93,7 +93,7 @@ pub fn place(facts: &Facts) -> i32 {
         + of(facts.dumped, 3)
         + of(facts.of_telegrams, 3)
         + of(facts.counted || facts.check_named, 6)
-        + of(facts.digits, -6)
+        + of(facts.digits, -8)
         + of(facts.of_leftovers, -6)
         + of(facts.words, -8)
 }
@@ -227,10 +227,11 @@ fn without_check(from: usize, bits: i32, cut: bool) -> Reading {
 
 /// The bytes that a frame of Modbus ASCII stands for, with a right LRC.
 fn of_ascii(bytes: &[u8], splitter: &Splitter) -> Option<Reading> {
-    /// Of 256 other bytes one is right.
     const LRC: i32 = 8;
     let checked = modbus_ascii::ASCII.verdict(bytes) == Verdict::Right;
-    let inside = structure(modbus_ascii::ASCII.pdu_bytes(bytes), splitter).filter(|_| checked)?;
+    // One of 256 numbers has a right LRC: what is in it must be able to be, too.
+    let can_be = |bits: &i32| checked && *bits > 0;
+    let inside = structure(modbus_ascii::ASCII.pdu_bytes(bytes), splitter).filter(can_be)?;
     let bits = unit(*bytes.first()?) + inside + LRC;
     Some(whole(&modbus_ascii::PROTOCOL, Verdict::Right, bits))
 }
@@ -373,7 +374,7 @@ fn function(function: u8) -> i32 {
 }
 
 /// How much a PDU looks like one: its function is known, its length fits, its numbers can be.
-pub(super) fn structure(pdu: &[u8], splitter: &Splitter) -> Option<i32> {
+pub fn structure(pdu: &[u8], splitter: &Splitter) -> Option<i32> {
     Some(function(*pdu.first()?) + numbers(pdu, splitter)?)
 }
 

@@ -17,12 +17,12 @@ pub struct Facts {
     pub wrapped: bool,
     /// It is, or is of, an array in the source of a program.
     pub array: bool,
-    /// Its numbers have two bytes and a mark each: `0x0102, 0x0304`.
+    /// Its numbers have a mark each, and some have two bytes, or it is one of four: `0x01, 0x0203`, `0x01020304`.
     pub words: bool,
     /// Commas stand between its numbers.
     pub listed: bool,
     /// Commas stand between its numbers, and each has one digit, as settings and counters have, too; or all of it is
-    /// one number of decimal digits that begins with none, as serial numbers are.
+    /// one number of decimal digits that begins with none, as serial numbers are; or it could be dialled.
     pub digits: bool,
     /// Its numbers have a prefix, an h, or are escapes: certainly bytes.
     pub marked: bool,

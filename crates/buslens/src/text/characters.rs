@@ -154,6 +154,16 @@ pub fn is_serial_number(text: &[u8]) -> bool {
     text.first() != Some(&b'0') && text.iter().all(|c| is_digit(*c))
 }
 
+/// Whether a text is a number that one dials, in five pairs, none of them of zeros: `01 42 17 03 55`.
+pub fn is_phone_number(text: &[u8]) -> bool {
+    const LENGTH: usize = 14;
+    let pairs = || text.chunks(3).map(|pair| &pair[..pair.len().min(2)]);
+    text.len() == LENGTH
+        && text[0] == b'0'
+        && pairs().all(|pair| pair != b"00" && pair.iter().all(|c| is_digit(*c)))
+        && text.chunks_exact(3).all(|pair| pair[2] == text[2])
+}
+
 /// Whether digits are the bits of a number: `00010000`, `0b00010000`.
 pub fn is_bits(text: &[u8]) -> bool {
     let marked = text.starts_with(b"0b") || text.starts_with(b"0B");

@@ -227,6 +227,10 @@ impl Scan {
             };
             let end = at + line[at..].iter().take_while(|c| is_digit(**c)).count();
             let mark = line.get(end).copied().unwrap_or_default();
+            if let Some(to) = samples(line, at).filter(|_| self.words == 0 && self.runs.is_empty()) {
+                self.stranger();
+                return to;
+            }
             let timed = matches!(mark, b':' | b'-' | b'/' | b'.') || end - at == time::MILLISECONDS;
             if timed && !self.open().is_some_and(goes_on) {
                 if mark == b'.'
@@ -515,6 +519,14 @@ impl Scan {
     pub fn tail_is_plain(&self, line: &[u8], run: &Run) -> bool {
         !line[run.span.to..].iter().any(u8::is_ascii_alphanumeric)
     }
+}
+
+/// Where a range of samples ends, as logic analysers number them: `41200-41208 UART: RX data: 01`.
+fn samples(line: &[u8], at: usize) -> Option<usize> {
+    const LEAST: usize = 4;
+    let (first, to) = digits(line, at).filter(|(_, to)| to - at >= LEAST)?;
+    let (last, to) = (line.get(to) == Some(&b'-')).then(|| digits(line, to + 1))??;
+    (first < last && line.get(to) == Some(&b' ')).then_some(to)
 }
 
 /// How long the word is that has a byte glued to its end, if it may: one of two digits, and small letters.

@@ -41,7 +41,7 @@ pub use words::Sender;
 use std::hash::{Hash, Hasher};
 
 use crate::field::{Facts, Span};
-use characters::{is_serial_number, is_word};
+use characters::{is_phone_number, is_serial_number, is_word};
 use columns::Columns;
 use dump::{Dump, Words};
 use line::{Alike, Like, Run, Scan, Start, Told};
@@ -743,6 +743,17 @@ fn has_placeholder(line: &[u8], run: &Run) -> bool {
     [b"xx", b"??", b"XX"].iter().any(|sign| behind.starts_with(*sign)) || names_check(behind)
 }
 
+/// Whether a digit that stands for any other, or two, are right before a run: `8x 01 04`, `XX 03 00`.
+fn begins_with_placeholder(line: &[u8], run: &Run) -> bool {
+    match line[..run.span.from].trim_ascii_end() {
+        [before @ .., high, b'x' | b'X'] => {
+            (high.is_ascii_hexdigit() || matches!(high, b'x' | b'X'))
+                && !before.last().is_some_and(|c| is_word(*c))
+        }
+        _ => false,
+    }
+}
+
 /// Whether a text begins with a word for a check behind an arrow: `→ CRC = ?`, `-> CRC16`.
 fn leads_to_check(text: &[u8]) -> bool {
     let arrows = ["→", "->", "=>", "+"].map(str::as_bytes);
@@ -795,20 +806,25 @@ fn facts(line: &[u8], run: &Run, scan: &Scan) -> Facts {
             && run.is_list()
             && (lead == b',' || lead == b'{' && !before.iter().any(u8::is_ascii_alphanumeric))
             || matches!(lead, b'{' | b'[') && begins_array(before),
-        words: run.marked && run.tokens() > 1 && run.len() == 2 * run.tokens(),
+        words: run.marked
+            && run.style != Style::Escaped
+            && run.len() > run.tokens()
+            && (run.tokens() > 1 || run.len() == SHORTEST),
         marked: run.marked,
         listed: run.is_list(),
         digits: match run.span.of(line) {
             number if run.tokens() == 1 => is_serial_number(number),
-            list => run.is_list() && !list.windows(2).any(|two| two.iter().all(u8::is_ascii_hexdigit)),
+            list if run.is_list() => !list.windows(2).any(|two| two.iter().all(u8::is_ascii_hexdigit)),
+            number => is_phone_number(number),
         },
         of_telegrams: scan.of_telegrams,
         of_leftovers: scan.of_leftovers,
         abridged,
         check_named: names_check(behind) || leads_to_check(behind),
-        slips: scan.words == 0
-            && (scan.slips > 0
-                || scan.near(run).iter().any(|other| other.first != run.first && other.span.len() == 1)),
+        slips: begins_with_placeholder(line, run)
+            || scan.words == 0
+                && (scan.slips > 0
+                    || scan.near(run).iter().any(|other| other.first != run.first && other.span.len() == 1)),
         shape,
         ..Facts::default()
     }

@@ -365,7 +365,7 @@ impl Port {
             ([true, false], _) => Direction::Request,
             ([false, true], _) => Direction::Response,
             // The answer to a write of one value repeats it: another value is another write.
-            _ if awaited && repeats_request(&entry) && protocol.waiting == 1 => {
+            _ if awaited && repeats_request(&entry) => {
                 let asked = last.map(|(request, _)| window.get(request).1);
                 let same = asked.is_some_and(|asked| asked.starts_with(own) || own.starts_with(asked));
                 if same { Direction::Response } else { Direction::Request }

@@ -282,6 +282,14 @@ impl Traffic {
             as_cut(entry);
         }
         entry.sides = copy.unwrap_or(entry.sides);
+        // What has the numbers of a request is none of the other side, whatever its line says.
+        let answers = matches!(entry.hint, Hint::Says(Direction::Response) | Hint::Other);
+        if answers && entry.verdict == Verdict::Wrong && entry.sides == [true, false] {
+            let structure = pdu(entry, &self.data).and_then(|pdu| evidence::structure(pdu, &self.splitter));
+            if structure.is_some_and(|bits| bits >= CONVERSATION) {
+                entry.hint = Hint::None;
+            }
+        }
         let response = entry.sides == [false, true];
         let checked = self.shapes.are_checked(one.facts.shape) && copy.is_none() && !one.cut;
         if checked && response && self.lacks_data(index) {
@@ -462,12 +470,15 @@ impl Traffic {
         if own.len() < SHORTEST && *own != [profibus_fdl::SC] && !exception {
             return false;
         }
-        let amiss = (facts.abridged && one.cut) || facts.slips || (facts.column && !in_conversation);
+        let copies = known.copies(entry, &self.data);
+        // What stands below each other and was seen with its check is explained there, field by field.
+        let explained = facts.column && (copies || !in_conversation);
+        let amiss = (facts.abridged && one.cut) || facts.slips || explained;
         if amiss || self.repeats(one, gone) {
             return false;
         }
         let placed = (facts.said || facts.bare || facts.dumped) && !facts.of_leftovers;
-        let copies = placed && known.copies(entry, &self.data);
+        let copies = copies && (placed || known.misprints(entry, &self.data));
         if !one.read {
             return copies;
         }
@@ -702,11 +713,15 @@ impl Known {
     /// Whether an entry is a telegram that was seen, with another check, without one, or without its end.
     fn copies(&self, entry: &Entry, data: &[u8]) -> bool {
         let own = bytes(entry, data);
+        let begins = |known: &[u8]| (own.len() + 3 >= known.len() || own.len() > 6) && known.starts_with(own);
+        self.misprints(entry, data) || self.alike(own).any(|(known, _)| begins(known))
+    }
+
+    /// Whether it is one with another check.
+    fn misprints(&self, entry: &Entry, data: &[u8]) -> bool {
+        let own = bytes(entry, data);
         let body = &own[..own.len().saturating_sub(2)];
-        self.alike(own).any(|(known, _)| {
-            let same = entry.verdict == Verdict::Wrong && known[..known.len() - 2] == *body;
-            same || (own.len() + 3 >= known.len() || own.len() > 6) && known.starts_with(own)
-        })
+        entry.verdict == Verdict::Wrong && self.alike(own).any(|(known, _)| known[..known.len() - 2] == *body)
     }
 
     /// If it is one without its end: which sides that can be of.

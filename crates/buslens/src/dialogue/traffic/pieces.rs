@@ -279,7 +279,13 @@ impl Traffic {
             // A request of RTU for two registers from 0 looks like a header with a function behind it.
             let more = telegram.len() > modbus_tcp::HEADER + 1;
             let told = if more { known || plain } else { known && self.protocol.is(&modbus_tcp::PROTOCOL) };
-            if protocol.is(&modbus_tcp::PROTOCOL) && !told {
+            // So does a write of switches from 0, whose check is wrong.
+            let write = || {
+                let pdu = &telegram[modbus_tcp::HEADER..];
+                self.splitter.sides(pdu) == [false; 2]
+                    && evidence::counted_write(telegram, &self.splitter).is_some()
+            };
+            if protocol.is(&modbus_tcp::PROTOCOL) && (!told || write()) {
                 break;
             }
             found.push((at, at + length, protocol, (protocol.verdict)(telegram)));
@@ -711,7 +717,7 @@ impl Traffic {
             self.entries[before].sides = [asks, !asks];
         }
         // A write of one value looks like nothing by itself.
-        if bits(&reading) > 8 || (facts.check_named && reading.is_some()) {
+        if bits(&reading) > 8 && !facts.digits || (facts.check_named && reading.is_some()) {
             self.shapes.look_alike(facts.shape);
         }
         match reading {

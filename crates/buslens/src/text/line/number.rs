@@ -272,8 +272,9 @@ impl Scan {
             if line[to] == b'\\' {
                 let next = line.get(to + 1).copied().unwrap_or_default();
                 let control = |digits: &[u8]| matches!(digits, [b'0', b'0', b'0' | b'1', ..]);
-                escaped |= matches!(next, b'x' | b'X' | b'0'..=b'9' | b't' | b'n' | b'r')
-                    || (next == b'u' && control(&line[to + 2..]));
+                // Line ends and tabs are of texts, too.
+                escaped |=
+                    matches!(next, b'x' | b'X' | b'0'..=b'9') || (next == b'u' && control(&line[to + 2..]));
                 path |= !ESCAPES.contains(&next);
                 to += 1;
             }

@@ -389,9 +389,11 @@ impl Scan {
             // `01 03 0C [12 bytes of data]`: the number in brackets counts what is not printed.
             let counts = gap.ends_with(b"[") && line.get(to) == Some(&b' ') && {
                 let behind = word(line, to + 1);
-                behind.to > to + 1 && behind.all & HEX == 0
+                behind.to > to + 1 && behind.all & HEX == 0 || line.get(to + 1).is_some_and(|c| *c >= 0x80)
             };
-            if let Some(mark) = between.filter(|_| fits && !odd && !counts) {
+            // `f(0x41, [0x10, 0x6A])`: a list among others is one by itself.
+            let inner = gap.starts_with(b",") && gap.ends_with(b"[");
+            if let Some(mark) = between.filter(|_| fits && !odd && !counts && !inner) {
                 if run.since == 0 {
                     (run.separator, run.gap) = (0, 0);
                 } else if run.since == 1 {

@@ -296,6 +296,13 @@ impl Log {
                 guess(Certainty::Likely, reason)
             }
             (None, _) if entry.is_said() => guess(Certainty::Likely, message!("the text says who speaks")),
+            // A person who types one telegram may mean either.
+            (None, Direction::Request)
+                if entry.sides() == [true; 2] && self.entries().len() + self.unread().len() > 1 =>
+            {
+                let reason = message!("it could be a response, too, but no such request stands before it");
+                guess(Certainty::Likely, reason)
+            }
             (None, _) => guess(own.certainty, own.reason),
         }
     }
