@@ -971,7 +971,12 @@ impl Written {
 }
 
 #[cfg(test)]
+#[path = "../../tests/random/mod.rs"]
+mod random;
+
+#[cfg(test)]
 mod tests {
+    use super::random::random;
     use super::*;
 
     /// What is given of the pieces of a text, but for their places in the file.
@@ -1013,6 +1018,103 @@ mod tests {
             let mut reader = Reader::new(form.clone());
             for line in [first, first, second, third] {
                 assert_eq!(given(&mut reader, line), given(&mut Reader::new(form.clone()), line), "{line}");
+            }
+        }
+    }
+
+    /// Lines that patterns could be made of, and others that are nearly so.
+    const LINES: &[&str] = &[
+        "TX: 01 03 00 C8 00 03 84 35",
+        "09:30:05.123 TX: 01 03 00 C8 00 03",
+        "2026-03-02 09:30:05 [x] 01-03-00-c8-00-03",
+        "2026-03-02 01:03:00:C8:00",
+        "2026-03-02   01:03:00:C8:00",
+        "000017-Tx:01 03 00 C8 00 03 84 35",
+        "id 12345 rx 01  03  00  C8  00",
+        "[01][03][00][C8][00][03]",
+        "<01><03><00><C8><00><03>",
+        ">>> 01:03:00:C8:00:03  ",
+        "10.0.0.7:49152 -> 10.0.0.1:502 01 03 00 C8 00",
+        "Tx=010300c800038435",
+        ":010300C800032D",
+        "Raw >>> {0x01, 0x03, 0x00, 0xC8, 0x00}",
+        "rx: 0x01 0x03 0x00 0xC8 0x00, len 5",
+        "[09:30:05] rx: 01.03.00.C8.00 (5 bytes in 12 ms)",
+        "TX 0x01 , 0x03 , 0x00 , 0xC8 , 0x00",
+        "rx 01 03 00 C8 00 03 len 6 of 00006",
+        "TX: 30 30 31 32 33  00123",
+        "TX: 30 30 31 32 33 |00123|",
+        "01 03 00 C8 00 at 09:30:05",
+        "{\"data\":\"01 03 00 C8 00 03\"}",
+        "len=00006 01 03 00 C8 00 03",
+        "5 01 03 00 C8 00",
+        "COM 12: 01 03 00 C8 00",
+        "0010: 01 03 00 C8 00",
+        "x -01 03 00 C8 00",
+        r"\x01 01 03 00 C8 00",
+        "TX 01 03 00 C8 00 RX 01 03 00 C8 00 05",
+        "tx 01 03 00 C8 00 123 56 rx",
+        "rx 0xC8 0x00 5 01 03 00 C8 00",
+        "01 03 00 C8 00 03 [12 bytes]",
+        "TX 01#03#00#C8#00",
+        "rx 01 03 00 C8 00 ... 84 35",
+        "rx 01 03 00 C8 00 [CRC]",
+        "a 123 | 01 03 00 C8 00 | b",
+        "TX 1, 3, 0, 200, 0, 3",
+        "TX: 01h 03h 00h C8h 00h",
+        "rx (7): 01 03 02 00 05 78 44",
+        "n 12345678 01 03 00 C8 00",
+        "n 1234567 010300C8AB",
+        "n 123/456 rx: 01 03 00 C8 00",
+        "v1.234 -123 rx 01 03 00 C8 00",
+        "123# 01 03 00 C8 00",
+        "1775000000001 tx 01 03 00 C8 00",
+        "TX 0103 00C8 0003",
+        "0x01 0x03 0x00 0xC8 0x00 (sent)",
+        "E5 12345 rx 68 05 05 68 81 82 5D 3B 3E D9 16",
+    ];
+
+    /// A line with other digits, and perhaps another sign.
+    fn varied(line: &str, random: &mut impl FnMut(u64) -> u64) -> String {
+        const SIGNS: &[u8] = b" ,;:-./|x[]()<>h#0A19";
+        let mut text = line.as_bytes().to_vec();
+        for c in &mut text {
+            let digits: &[u8] = match c {
+                b'A' | b'C' | b'E' => b"0123456789ABCDEF",
+                b'0'..=b'9' => b"0123456789",
+                _ => continue,
+            };
+            if random(1) > 0 {
+                *c = digits[random(digits.len() as u64 - 1) as usize];
+            }
+        }
+        let at = random(text.len() as u64 - 1) as usize;
+        let sign = SIGNS[random(SIGNS.len() as u64 - 1) as usize];
+        match random(7) {
+            0 => text[at] = sign,
+            1 => text.insert(at, sign),
+            2 => drop(text.remove(at)),
+            // One byte more or less.
+            3 => drop(text.splice(at.., text[at.saturating_sub(3)..].to_vec())),
+            4 => drop(text.drain(at..(at + 3).min(text.len()))),
+            _ => {}
+        }
+        String::from_utf8(text).expect("its signs are ASCII")
+    }
+
+    #[test]
+    fn what_is_like_others_is_given_as_if_they_were_forgotten() {
+        let mut random = random(1);
+        for (nth, line) in LINES.iter().enumerate() {
+            for numbers in [Some(Numbers::Hex), None, Some(Numbers::Decimal)] {
+                let [mut reader, mut forgetful] =
+                    [0, 1].map(|_| Reader::new(Form { numbers, ..Form::default() }));
+                for _ in 0..100 {
+                    for line in [line.to_string(), varied(line, &mut random)] {
+                        forgetful.alike = Alike::default();
+                        assert_eq!(given(&mut reader, &line), given(&mut forgetful, &line), "{nth}: {line}");
+                    }
+                }
             }
         }
     }

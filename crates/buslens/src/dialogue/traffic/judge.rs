@@ -9,7 +9,7 @@ use crate::dialogue::evidence::{self, CONVERSATION, MISPRINTED, OTHER_KIND, SAME
 use crate::dialogue::{Candidate, Certainty, protocols, turns};
 use crate::field::{Direction, Facts, Span};
 use crate::frame::{
-    Protocol, Speaker, Verdict, modbus_ascii, modbus_pdu, modbus_rtu, modbus_tcp, modbus_unchecked,
+    Bus, Protocol, Speaker, Verdict, modbus_ascii, modbus_pdu, modbus_rtu, modbus_tcp, modbus_unchecked,
     profibus_fdl,
 };
 use crate::modbus::EXCEPTION;
@@ -149,20 +149,10 @@ enum Family {
 }
 
 fn family(protocol: &Protocol) -> Family {
-    match () {
-        () if protocol.is(&modbus_tcp::PROTOCOL) => Family::Tcp,
-        () if [
-            &modbus_rtu::PROTOCOL,
-            &modbus_ascii::PROTOCOL,
-            &modbus_pdu::PROTOCOL,
-            &modbus_unchecked::PROTOCOL,
-        ]
-        .into_iter()
-        .any(|serial| protocol.is(serial)) =>
-        {
-            Family::Serial
-        }
-        () => Family::Profibus,
+    match protocol.bus() {
+        Bus::Modbus if protocol.is(&modbus_tcp::PROTOCOL) => Family::Tcp,
+        Bus::Modbus => Family::Serial,
+        Bus::Profibus => Family::Profibus,
     }
 }
 

@@ -312,8 +312,7 @@ impl Traffic {
             return true;
         }
         let lengths = self.splitter.rtu_lengths(bytes);
-        let shorter =
-            lengths.into_iter().flatten().any(|length| length < bytes.len() && is_right(&bytes[..length]));
+        let shorter = lengths.into_iter().flatten().any(|length| bytes.get(..length).is_some_and(is_right));
         // Only a zero leaves a check right, so that one is all that can be missing.
         let longer = lengths.into_iter().flatten().any(|length| length == bytes.len() + 1);
         bytes.len() > 4 && !shorter && !longer

@@ -382,7 +382,7 @@ impl Scan {
             let fits = !(long && between != Some(b' '))
                 && ((both && run.marked == kind.marked) || (list && (both || run.marked || kind.marked)));
             // `a 01 03`, `01 03 0`: who writes zeros before one digit writes them before each.
-            let apart = between == Some(b' ') && !kind.marked && run.tokens > 0;
+            let apart = between == Some(b' ') && !kind.marked;
             let odd = apart && ((padded && run.single && run.tokens == 1) || (single && run.padded));
             // `01 03 0C [12 bytes of data]`: the number in brackets counts what is not printed.
             let counts = gap.ends_with(b"[") && line.get(to) == Some(&b' ') && {
