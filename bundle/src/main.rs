@@ -12,6 +12,7 @@ mod one_file;
 mod order;
 mod page;
 mod split;
+mod uniform;
 mod unused;
 
 use std::collections::BTreeSet;

@@ -2,6 +2,7 @@
 //! 32 kB and finds what it had there. So those that are like each other stand near each other, which makes the
 //! parts of the page smaller by a sixteenth.
 
+use std::borrow::Cow;
 use std::cmp::Reverse;
 use std::collections::HashMap;
 
@@ -11,10 +12,14 @@ use wasmparser::{
     CodeSectionReader, CustomSectionReader, FunctionBody, FunctionSectionReader, Parser, Payload, TypeRef,
 };
 
+use crate::uniform::uniform;
+
 /// The module with like functions side by side, where it is to be packed, and without names of functions and the
 /// like.
 pub fn ordered(wasm: &[u8], is_packed: bool) -> Result<Vec<u8>, String> {
     let says = |error: String| format!("A part of the module is no wasm: {error}.");
+    // What is packed is what is to be like each other.
+    let wasm = &if is_packed { Cow::Owned(uniform(wasm)?) } else { Cow::Borrowed(wasm) };
     let mut order = Order::of(wasm, is_packed).map_err(|error| says(error.to_string()))?;
     let mut module = Module::new();
     order.parse_core_module(&mut module, Parser::new(0), wasm).map_err(|error| says(error.to_string()))?;
@@ -57,11 +62,10 @@ impl Order {
 /// One function after another, each time the one that has most in common with what was written last: as runs of
 /// bytes that stand in both. The same source, compiled for other types, gives such functions.
 fn by_likeness(types: &[u32], bodies: &[FunctionBody]) -> Vec<usize> {
-    /// Found by trying, as are the others: shorter runs stand everywhere, and so do those of more functions.
+    /// Found by trying, as are the others: shorter runs stand everywhere.
     const RUN: usize = 5;
-    const MOST: usize = 500;
-    /// So many bytes were written last: half of what gzip remembers.
-    const NEAR: usize = 16 * 1024;
+    /// So many bytes were written last: a little less than gzip remembers.
+    const NEAR: usize = 28 * 1024;
     /// How much the very last function counts beside them.
     const LAST: f64 = 2.0;
     const SAME_TYPE: f64 = 1.3;
@@ -84,7 +88,7 @@ fn by_likeness(types: &[u32], bodies: &[FunctionBody]) -> Vec<usize> {
         }
         runs.push(own);
     }
-    for holders in holders.iter_mut().filter(|holders| !(2..=MOST).contains(&holders.len())) {
+    for holders in holders.iter_mut().filter(|holders| holders.len() == 1) {
         holders.clear();
     }
     let mut left: Vec<usize> = (0..bodies.len()).collect();

@@ -11,11 +11,11 @@ const FIRST_VIEW: u64 = 450_000;
 
 /// The most bytes of the whole page, with all views and the reader of logs. 1.2 MB are the aim,
 /// kept without Learn, which is a quarter of it and loaded when somebody goes there.
-const WHOLE: u64 = 1_300_000;
+const WHOLE: u64 = 1_285_000;
 
 /// The most bytes of the page as one file, as it lies on a disk. In base64, the modules take four thirds of what
 /// they take on the way; 1 MB was the aim before Learn came.
-const ONE_FILE: u64 = 1_830_000;
+const ONE_FILE: u64 = 1_810_000;
 
 /// What the bundler calls the files whose names have no hash.
 const DOCUMENT: &str = "index.html";
