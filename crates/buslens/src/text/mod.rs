@@ -163,8 +163,8 @@ fn begins_array(text: &[u8]) -> bool {
 #[derive(Debug, Default)]
 struct List {
     bytes: Vec<u8>,
+    /// As long as `bytes`, if all can be decimal numbers.
     decimal: Vec<u8>,
-    both: bool,
     places: Vec<Span>,
     breaks: Vec<usize>,
     line: u32,
@@ -247,10 +247,9 @@ impl Reader {
             let row = if *row == 0 { u32::MAX } else { self.line - row };
             (time, sender, port, self.line - line, offset, row, number, leftovers).hash(hasher);
         }
-        let List { bytes, decimal, both, places, breaks, line, offset, facts, sender, time } = &self.list;
+        let List { bytes, decimal, places, breaks, line, offset, facts, sender, time } = &self.list;
         if !bytes.is_empty() {
-            (bytes, decimal, both, places, breaks, self.line - line, offset, facts, sender, time)
-                .hash(hasher);
+            (bytes, decimal, places, breaks, self.line - line, offset, facts, sender, time).hash(hasher);
         }
         self.columns.hash_state(self.line, hasher);
     }
@@ -619,7 +618,6 @@ impl Reader {
             let array = facts.array || self.array;
             self.list.facts = Facts { wrapped: true, said: self.list.sender.is_some(), array, ..facts };
             (self.list.line, self.list.offset, self.list.time) = (self.line, self.offset, time);
-            self.list.both = true;
         } else {
             self.list.breaks.push(self.list.bytes.len());
         }
@@ -630,7 +628,7 @@ impl Reader {
             match self.scan.decimal_bytes(run) {
                 Some(decimal) if self.form.numbers.is_none() => self.list.decimal.extend_from_slice(decimal),
                 _ if run.marked => self.list.decimal.extend_from_slice(bytes),
-                _ => self.list.both = false,
+                _ => {}
             }
             self.list
                 .places
@@ -643,12 +641,12 @@ impl Reader {
     }
 
     fn end_list(&mut self, sink: &mut dyn FnMut(Event<'_>)) {
-        let List { bytes, decimal, both, places, breaks, line, offset, facts, sender, time } = &mut self.list;
+        let List { bytes, decimal, places, breaks, line, offset, facts, sender, time } = &mut self.list;
         if bytes.is_empty() {
             return;
         }
         sink(Event::Piece(Piece {
-            decimal: (*both && decimal.len() == bytes.len() && decimal != bytes).then_some(decimal),
+            decimal: (decimal.len() == bytes.len() && decimal != bytes).then_some(decimal),
             bytes,
             breaks,
             places,
@@ -1071,6 +1069,7 @@ mod tests {
         "1775000000001 tx 01 03 00 C8 00",
         "TX 0103 00C8 0003",
         "0x01 0x03 0x00 0xC8 0x00 (sent)",
+        "rx 0x01 0x03 0x00 0xC8 0x00 from unit 0x11",
         "E5 12345 rx 68 05 05 68 81 82 5D 3B 3E D9 16",
     ];
 
