@@ -8,6 +8,8 @@ mod alike;
 mod number;
 mod run;
 
+use std::cmp::{max_by_key, min_by_key};
+
 use super::characters::{
     ESCAPE, address, begins_word, blank_character, decimal, digits, escape_sequence, hex_value, is_digit,
     is_port, service, url_blank, wide, word, word_of,
@@ -351,9 +353,9 @@ impl Scan {
             _ => return,
         };
         self.ends[1] = Some(to);
-        let key = |end: Span| (service(end.of(line)), end.of(line));
+        let key = |end: &Span| (service(end.of(line)), end.of(line));
         // A server waits at a known port; a client is given one of the high ones.
-        let (client, server) = if key(from) > key(to) { (from, to) } else { (to, from) };
+        let (client, server) = (max_by_key(from, to, key), min_by_key(from, to, key));
         self.port.clear();
         for part in [client.of(line), " – ".as_bytes(), server.of(line)] {
             self.port.extend_from_slice(part);
@@ -415,7 +417,7 @@ impl Scan {
             }
             shown.all(|byte| *byte == b' ')
         };
-        text.len() <= blank + 3 * bytes.len() && (1..=blank).any(shows)
+        (1..=blank).any(shows)
     }
 }
 

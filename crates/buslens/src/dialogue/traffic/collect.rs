@@ -610,10 +610,9 @@ impl Traffic {
             return false;
         };
         let asked = u16::from_be_bytes([*high, *low]);
-        Some(waiting.unit) == unit
-            && waiting.function == *function
-            && waiting.length == Some(u16::from(*count) + 5)
-            && asked.wrapping_mul(2) != u16::from(*count)
+        let count = u16::from(*count);
+        (Some(waiting.unit), waiting.function, waiting.length) == (unit, *function, Some(count + 5))
+            && asked.wrapping_mul(2) != count
     }
 
     /// A unit has a function.

@@ -629,9 +629,8 @@ pub(super) struct Known {
 impl Known {
     /// Begins with what the beginning of a log told.
     fn behind(beginning: &Arc<Self>) -> Self {
-        let Self { typed, entries, read, threshold, misprinted, families, .. } = **beginning;
-        let beginning = Some(Arc::clone(beginning));
-        Self { typed, entries, read, threshold, misprinted, families, beginning, ..Self::default() }
+        let Self { entries, read, families, .. } = **beginning;
+        Self { entries, read, families, beginning: Some(Arc::clone(beginning)), ..Self::default() }
     }
 
     fn has_seen(&self, pair: (u8, u8)) -> bool {
