@@ -7,6 +7,7 @@
 
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::net::{Ipv4Addr, TcpListener, TcpStream};
+use std::num::NonZero;
 use std::path::Path;
 use std::process::{Child, Command, ExitCode, Stdio};
 use std::time::{Duration, Instant};
@@ -26,6 +27,9 @@ const LONG: &str = "--long";
 
 /// What asks for other browsers than Chromium: their names with commas between them, or `all`.
 pub const BROWSERS: &str = "--browsers";
+
+/// The name of the tests that measure how long the page takes.
+const TIMED: &str = "speed::";
 
 /// Runs the page's tests, or those with one of these names in their names; with `--long` those that take
 /// minutes, with `--browsers` in these.
@@ -53,6 +57,17 @@ pub fn run(words: &[&str]) -> Result {
     let page = server::address(server::port(&listener)?);
     server::start(listener, Path::new(build::DIST))?;
 
+    // Those that measure how long the page takes have the machine for themselves; the others mostly wait for what they
+    // asked for, so there are more of them than cores.
+    let at_once = std::thread::available_parallelism().map_or(2, NonZero::get) * 2;
+    let at_once = format!("--test-threads={at_once}");
+    let timed = [TIMED, "--test-threads=1"];
+    let others = ["--skip", TIMED, &at_once];
+    let parts = match names[..] {
+        [] => vec![&timed[..], &others],
+        _ if names.iter().all(|name| name.starts_with(TIMED)) => vec![&timed[1..]],
+        _ => vec![&others[2..]],
+    };
     for engine in engines {
         let browser = tools::browser(engine)?;
         let screenshots = match engine {
@@ -64,27 +79,30 @@ pub fn run(words: &[&str]) -> Result {
         println!("The page in {}: {}", engine.label(), browser.program.display());
         // WebKit's has no way to do without a screen.
         let screen = browser.screen.as_deref().map(Kept::start).transpose()?;
-        let mut tests = tools::cargo();
-        tests
-            // What tests measure is printed, too.
-            .args(["test", "--package", "page-tests", "--no-fail-fast"])
-            .args(["--", "--show-output"])
-            // Cargo itself takes one name only.
-            .args(&names)
-            .args(chosen)
-            .env("BUSLENS_URL", &page)
-            .env("BUSLENS_DIST", &dist)
-            .env("BUSLENS_ENGINE", engine.key())
-            .env("BUSLENS_BROWSER", &browser.program)
-            .env("BUSLENS_DRIVER", &browser.driver)
-            .env("BUSLENS_KEEPER", &keeper)
-            .env("BUSLENS_AXE", &axe)
-            .env("BUSLENS_SCREENSHOTS", &screenshots);
-        if let Some(screen) = &screen {
-            tests.env("DISPLAY", format!(":{}", screen.number));
+        for &part in &parts {
+            let mut tests = tools::cargo();
+            tests
+                // What tests measure is printed, too.
+                .args(["test", "--package", "page-tests", "--no-fail-fast"])
+                .args(["--", "--show-output"])
+                // Cargo itself takes one name only.
+                .args(&names)
+                .args(part)
+                .args(chosen)
+                .env("BUSLENS_URL", &page)
+                .env("BUSLENS_DIST", &dist)
+                .env("BUSLENS_ENGINE", engine.key())
+                .env("BUSLENS_BROWSER", &browser.program)
+                .env("BUSLENS_DRIVER", &browser.driver)
+                .env("BUSLENS_KEEPER", &keeper)
+                .env("BUSLENS_AXE", &axe)
+                .env("BUSLENS_SCREENSHOTS", &screenshots);
+            if let Some(screen) = &screen {
+                tests.env("DISPLAY", format!(":{}", screen.number));
+            }
+            steps::run(&mut tests)
+                .map_err(|error| format!("{error} Pictures, if any, are in {}.", screenshots.display()))?;
         }
-        steps::run(&mut tests)
-            .map_err(|error| format!("{error} Pictures, if any, are in {}.", screenshots.display()))?;
     }
     Ok(())
 }

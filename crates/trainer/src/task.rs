@@ -21,7 +21,7 @@ pub struct Task {
 
 /// Something that a learner looks at.
 #[derive(Clone, Debug)]
-#[expect(clippy::large_enum_variant, reason = "there are a few of them, and never many at a time")]
+#[allow(clippy::large_enum_variant, reason = "there are a few of them, and never many at a time")]
 pub enum Given {
     Telegram(Telegram),
     /// A conversation, a line each, or other text.
@@ -30,7 +30,7 @@ pub enum Given {
 
 /// What a right answer is.
 #[derive(Clone, Debug)]
-#[expect(clippy::large_enum_variant, reason = "there are a few of them, and never many at a time")]
+#[allow(clippy::large_enum_variant, reason = "there are a few of them, and never many at a time")]
 pub enum Expected {
     /// The bytes of a telegram, with its checksum or without.
     Telegram(Telegram),

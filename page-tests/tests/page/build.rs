@@ -388,24 +388,6 @@ async fn what_is_built_is_not_lost() -> Result {
     page.close().await
 }
 
-/// The longest telegram is edited without a wait that a person feels; measured, and printed.
-#[tokio::test(flavor = "multi_thread")]
-async fn keystrokes_in_a_long_form() -> Result {
-    let text = format!("01 10 00 00 00 7B F6 {}", "12 34 ".repeat(123));
-    let link = format!("#/build?text={}", text.trim().replace(' ', "+"));
-    let page = Page::open_at(&link, DESKTOP, false).await?;
-    page.until(".making h3", "Write multiple registers").await?;
-    let script = "const done = arguments[0]; const field = [...document.querySelectorAll('.making .item input')][60]; \
-        field.focus(); const times = []; const step = () => { const start = performance.now(); field.select(); \
-          document.execCommand('insertText', false, String(times.length)); document.body.offsetHeight; \
-          requestAnimationFrame(() => { const channel = new MessageChannel(); channel.port1.onmessage = () => { \
-            times.push(performance.now() - start); times.length < 15 ? setTimeout(step, 50) : \
-            done(times.sort((a, b) => a - b)[7]); }; channel.port2.postMessage(0); }); }; step();";
-    let median: f64 = page.driver.execute_async(script, vec![]).await?.convert()?;
-    println!("keystroke in a form of 123 registers: {median:.1} ms until its frame is done");
-    page.close().await
-}
-
 /// A hit says its telegram, and what tells it from its neighbours.
 #[tokio::test(flavor = "multi_thread")]
 async fn a_hit_says_what_it_would_send() -> Result {

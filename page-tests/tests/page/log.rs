@@ -21,7 +21,7 @@ fn frame(body: &[u8]) -> Vec<u8> {
 }
 
 /// A log of `pairs` requests with their answers: unit 9 is silent for a while, one check in 500 fails.
-fn log(pairs: usize) -> String {
+pub fn log(pairs: usize) -> String {
     let mut text = String::new();
     let mut line = |millisecond: usize, word: &str, bytes: &[u8]| {
         let second = 36_000 + millisecond / 1000;
@@ -54,14 +54,14 @@ fn log(pairs: usize) -> String {
 }
 
 /// A file with this content, which a test opens in the page.
-fn file(folder: &Path, name: &str, content: &[u8]) -> String {
+pub fn file(folder: &Path, name: &str, content: &[u8]) -> String {
     let path = folder.join(name);
     std::fs::File::create(&path).and_then(|mut file| file.write_all(content)).expect("a file can be written");
     path.display().to_string()
 }
 
 /// Opens a file, and waits until it is read or refused.
-async fn open(page: &Page, path: &str) -> Result<Duration> {
+pub async fn open(page: &Page, path: &str) -> Result<Duration> {
     let start = Instant::now();
     page.open_file(path).await?;
     page.wait_for(".story h2, [role=alert]").await?;
@@ -69,7 +69,7 @@ async fn open(page: &Page, path: &str) -> Result<Duration> {
 }
 
 /// Waits until all of a file is read, of which something is shown before.
-async fn wait_for_all(page: &Page) -> Result {
+pub async fn wait_for_all(page: &Page) -> Result {
     while page.count(".reading-on").await? > 0 {
         tokio::time::sleep(Duration::from_millis(20)).await;
     }
@@ -77,7 +77,7 @@ async fn wait_for_all(page: &Page) -> Result {
 }
 
 /// The telegrams of the list, as far as its foot tells.
-const COUNT: &str = ".filters .end .number";
+pub const COUNT: &str = ".filters .end .number";
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_log_is_read_summed_up_and_looked_through() -> Result {
@@ -224,40 +224,6 @@ async fn a_file_that_was_not_kept_is_asked_for() -> Result {
     page.fragment().await?;
     page.driver.refresh().await?;
     page.until(".missing", "plant.log").await?;
-    page.close().await
-}
-
-/// 20 MB: what the page's thread does meanwhile is measured, and printed.
-#[tokio::test(flavor = "multi_thread")]
-async fn a_large_log_does_not_block_the_page() -> Result {
-    let folder = tempfile::tempdir()?;
-    let text = log(200_000);
-    let path = file(folder.path(), "large.log", text.as_bytes());
-    let page = Page::open(DESKTOP, false).await?;
-    page.value(
-        "window.longest = 0; new PerformanceObserver((list) => { for (const entry of list.getEntries()) \
-         longest = Math.max(longest, entry.duration); }).observe({ type: 'longtask' });",
-    )
-    .await?;
-    let start = Instant::now();
-    let first = open(&page, &path).await?;
-    page.wait_for(".rows .row").await?;
-    wait_for_all(&page).await?;
-    let (took, longest) = (start.elapsed(), page.value("return longest").await?);
-    println!(
-        "{:.1} MB: something to see after {first:?}, all read in {took:?}; the longest task of the page's thread took \
-         {longest} ms",
-        text.len() as f64 / 1e6
-    );
-    // What was seen first is still there, and what came later is, too.
-    page.until(COUNT, "396,667 rows").await?;
-    assert!(page.count(".rows .row").await? <= 100, "only rows in sight exist");
-    // The end of the list is there, too.
-    page.driver.execute("document.querySelector('.list').focus()", vec![]).await?;
-    page.press(Key::End).await?;
-    let last = page.value("return document.querySelector('.list').ariaRowCount").await?;
-    let last = last.as_str().and_then(|text| text.parse::<usize>().ok()).expect("a number") - 2;
-    page.wait_for(&format!("#row-{last}[aria-selected=true]")).await?;
     page.close().await
 }
 
@@ -545,23 +511,4 @@ async fn a_finding_leads_to_the_list_on_a_phone() -> Result {
         page.close().await?;
     }
     Ok(())
-}
-
-/// Measures and prints: a log of 1,000 lines that somebody types in.
-#[tokio::test(flavor = "multi_thread")]
-async fn a_keystroke_in_a_log() -> Result {
-    let page = Page::open(DESKTOP, false).await?;
-    page.paste(&log(500)).await?;
-    page.wait_for(".rows .row").await?;
-    page.click_text(".file-bar button", "Edit text").await?;
-    let script = "const done = arguments[0]; const area = document.querySelector('.editor textarea'); area.focus(); \
-        area.setSelectionRange(area.value.length - 2, area.value.length - 2); const times = []; \
-        const step = () => { const start = performance.now(); \
-          document.execCommand(times.length % 2 ? 'insertText' : 'delete', false, '4'); \
-          requestAnimationFrame(() => { const channel = new MessageChannel(); channel.port1.onmessage = () => { \
-            times.push(performance.now() - start); times.length < 21 ? setTimeout(step, 500) : \
-            done(times.sort((a, b) => a - b)[10]); }; channel.port2.postMessage(0); }); }; step();";
-    let median: f64 = page.driver.execute_async(script, vec![]).await?.convert()?;
-    println!("keystroke in a log of 1,000 lines: {median:.1} ms until its frame is done");
-    page.close().await
 }

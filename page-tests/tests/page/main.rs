@@ -15,4 +15,5 @@ mod promises;
 mod read;
 mod reference;
 mod sheet;
+mod speed;
 mod typed;

@@ -301,21 +301,3 @@ async fn keys_lead_to_the_input_and_to_their_list() -> Result {
     assert_eq!(page.text(".check-result .verdict").await?, "CRC is valid");
     page.close().await
 }
-
-/// From opening the page to the first telegram read, as the browser measures it.
-#[tokio::test(flavor = "multi_thread")]
-async fn the_first_telegram_is_read_within_a_second() -> Result {
-    let page = Page::open(DESKTOP, false).await?;
-    // The first start of a browser compiles what the others find compiled.
-    let mut times = Vec::new();
-    for _ in 0..5 {
-        page.go("#/read?text=01+03+00+C8+00+03+84+35").await?;
-        page.until(".lead h2", "Ask unit 1").await?;
-        let script = "const done = arguments[0]; new PerformanceObserver((list) => done(Math.max(...list.getEntries().map((entry) => entry.startTime)))).observe({ type: 'largest-contentful-paint', buffered: true })";
-        let painted: f64 = page.driver.execute_async(script, vec![]).await?.convert()?;
-        times.push(painted);
-    }
-    times.sort_by(f64::total_cmp);
-    println!("first telegram painted {:.0} ms after opening the page ({times:.0?})", times[2]);
-    page.close().await
-}
