@@ -75,6 +75,9 @@ pub struct Scan {
     numbers: Option<Numbers>,
     /// Any number with a fraction is a time in units of so many microseconds.
     time_unit: Option<i64>,
+    /// Of each number is asked what it could be, also where those before it are written in the same way.
+    #[cfg(test)]
+    pub slow: bool,
 }
 
 /// Where a line begins.

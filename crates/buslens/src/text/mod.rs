@@ -1118,6 +1118,58 @@ mod tests {
         }
     }
 
+    /// Numbers of all spellings that follow each other.
+    const NUMBERS: &[&str] = &[
+        "0x01, 0x03, 0x00, 0xC8, 0x00",
+        "0x1 0x3 0x0 0xC8 0x5",
+        "1, 3, 0, 200, 0, 3",
+        "200 201 3 4 50",
+        "tx 0103 00C8 0003 8435",
+        "01h, 03h, 0Ch, 12h",
+        "9h 8h 7h Ah Bh 12h",
+        "01   03   00   C8   00",
+        "01 , 03 , 00 , C8 , 00",
+        "{1,3,0,200,-56,7}",
+        "01 - 03 - 00 - C8 - 00",
+        "[01] [03] [00] [C8] [00]",
+        "1 3 0 20 0 3 13 53",
+        "01:03:00:C8:00:1",
+        "0x01,0x03,0x00,3,4",
+        "01 03 00 C8 0 5 6",
+        "$01,$03,$00,$C8",
+        "01%2003%2000%20C8",
+        "'0x01', '0x03', '0x00', '0xC8'",
+        "\"01\", \"03\", \"00\", \"C8\"",
+        "0x01 ,0x03 ,0x00 ,0xC8",
+        "12,34,56,78,90",
+        "1|3|0|200|3",
+        "tx 1, 3, 0, 20 and 5, 6, 7",
+        "1. 3. 0. 200. 3. 9",
+    ];
+
+    #[test]
+    fn numbers_like_those_before_are_read_as_if_asked_what_they_are() {
+        let mut random = random(2);
+        let read = |line: &str, numbers, slow| {
+            let mut scan = Scan::default();
+            scan.slow = slow;
+            scan.read(line.as_bytes(), Start::default(), numbers);
+            let decimal: Vec<_> = scan.runs.iter().map(|run| scan.decimal_bytes(run)).collect();
+            let Scan { hex, places, runs, breaks, time, words, slips, column, sender, .. } = &scan;
+            format!(
+                "{hex:?} {decimal:?} {places:?} {runs:?} {breaks:?} {time:?} {words} {slips} {column} {sender:?}"
+            )
+        };
+        for line in NUMBERS.iter().chain(LINES) {
+            for numbers in [Some(Numbers::Hex), None, Some(Numbers::Decimal)] {
+                for _ in 0..60 {
+                    let line = varied(line, &mut random);
+                    assert_eq!(read(&line, numbers, false), read(&line, numbers, true), "{line} {numbers:?}");
+                }
+            }
+        }
+    }
+
     #[test]
     fn marks_that_quote() {
         assert_eq!(

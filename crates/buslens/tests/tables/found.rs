@@ -311,6 +311,9 @@ const DIFFERENCES: &[&str] = &[
     "TX: 01 42 00 C8 A0 5A FF 01 42 00 C9 61 9B",
     "TX: 01 42 00 C8 A0 5A FF 02 43 00 C9 30 1E",
     "55 08 03 00 10 00 03 04 97 55 08 03 06 00 01",
+    "so 01 06 00 C8 00 05 it\nso 01 06 00 C8 00 06 it",
+    "so 01 06 00 C8 00 05 it\nso 01 06 00 C8 00 05 it",
+    "so 10 01 02 49 4D 16 it\nso E5 it\nSC E5",
 ];
 
 /// Puts the check of the bytes before it where `~~` stands.

@@ -397,6 +397,10 @@ pub const SURROUNDINGS: &[&str] = &[
     "1772443805123x tx 01 03 00 C8",
     "1772443805123: ",
     "1772443805123 tx",
+    "Chr(17) + Chr(3) + Chr(0) + Chr(200) + Chr(5)",
+    "(byte)17, (byte)3, (byte)0, (byte)200",
+    "{(byte) 1A, (byte) 03, (byte) 00, (byte) C8, (byte) 200}",
+    "'\\x17', '\\x03', '\\x00', '\\xC8'",
 ];
 
 /// Times in front of bytes.

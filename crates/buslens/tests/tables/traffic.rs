@@ -239,6 +239,8 @@ fn streams_and_connections() {
                 "00 05 00 C8 FF 00 0C 15 ASKS ANSWERS",
                 "ANSWERS ASKS",
                 "ASKS FFx20000 ASKS",
+                "08 03 02 8D 00 01 15 00 08 03 02 8D 00 01 15 00 55",
+                "08 03 00 10 00 01 85 56 08 03 02 8D 00 01 15 00",
             ][..],
         ),
         (

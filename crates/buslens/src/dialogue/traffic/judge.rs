@@ -700,7 +700,7 @@ impl Known {
     /// If it is one without its end: which sides that can be of.
     fn is_cut_copy(&self, entry: &Entry, data: &[u8]) -> Option<[bool; 2]> {
         let own = bytes(entry, data);
-        let whole = self.alike(own).find(|(known, _)| known.len() > own.len() && known.starts_with(own));
+        let whole = self.alike(own).find(|(known, _)| known.starts_with(own));
         whole.map(|(_, sides)| *sides)
     }
 
