@@ -104,15 +104,9 @@ pub fn company(pieces: usize, proven: usize, alike: usize) -> i32 {
     /// Few that are alike say little: each other.
     const MOST: i32 = 8;
     let good = proven + alike;
-    match (good * 2 > pieces, good) {
-        (false, _) if pieces > 2 => {
-            if good * 3 < pieces {
-                -8
-            } else {
-                -4
-            }
-        }
-        (false, _) | (true, 0 | 1) if proven == 0 => 0,
+    match pieces {
+        3.. if good * 3 < pieces => -8,
+        3.. if good * 2 <= pieces => -4,
         _ => (3 * proven as i32 + 2 * alike.saturating_sub(1) as i32).min(MOST),
     }
 }

@@ -59,32 +59,32 @@ fn is_ft12(bytes: &[u8]) -> bool {
     matches!(*bytes, [0x10, control, address, sum, 0x16] if control.wrapping_add(address) == sum)
 }
 
-/// The long frame of FT1.2 with what M-Bus has in it: a control field of its own, and a CI field where PROFIBUS has
-/// its frame control, which has no such function.
+/// Control field, address and what comes behind them in a long frame of FT1.2, if its lengths and its sum are right.
+///
+/// Source: IEC 60870-5-1, section 6.2.4.2.
+fn long_frame(bytes: &[u8]) -> Option<[u8; 3]> {
+    let [0x68, length, again, 0x68, covered @ .., sum, 0x16] = bytes else { return None };
+    let right = (again, covered.len(), *sum) == (length, usize::from(*length), sum_of(covered));
+    covered.first_chunk().copied().filter(|_| right)
+}
+
+/// A long frame with what M-Bus has in it: a control field of its own, and a CI field where PROFIBUS has its frame
+/// control, which has no such function.
 ///
 /// Source: EN 13757-2 and -3.
 fn is_meter_bus(bytes: &[u8]) -> bool {
-    let [0x68, length, again, 0x68, covered @ .., sum, 0x16] = bytes else { return false };
-    let [control, _, ci, ..] = covered else { return false };
-    length == again
-        && covered.len() == usize::from(*length)
-        && covered.iter().fold(0_u8, |sum, byte| sum.wrapping_add(*byte)) == *sum
-        && matches!(control, 0x08 | 0x18 | 0x28 | 0x38 | 0x53 | 0x73 | 0x5B | 0x7B)
+    let Some([control, _, ci]) = long_frame(bytes) else { return false };
+    matches!(control, 0x08 | 0x18 | 0x28 | 0x38 | 0x53 | 0x73 | 0x5B | 0x7B)
         && matches!(ci, 0x50..=0x52 | 0x5A | 0x5B | 0x70..=0x72 | 0x78 | 0x7A | 0xB8..=0xBF)
 }
 
-/// The long frame of FT1.2 with a control field of its own, and behind the address what PROFIBUS's frame control
-/// cannot be: it has no such function, or none that carries data.
+/// A long frame with a control field of its own, and behind the address what PROFIBUS's frame control cannot be: it has
+/// no such function, or none that carries data.
 ///
-/// Source: IEC 60870-5-1, section 6.2.4.2; IEC 60870-5-2, section 6.1.2.
+/// Source: IEC 60870-5-2, section 6.1.2.
 fn is_telecontrol(bytes: &[u8]) -> bool {
-    let [0x68, length, again, 0x68, covered @ .., sum, 0x16] = bytes else { return false };
-    let [control, _, next, ..] = covered else { return false };
-    length == again
-        && covered.len() == usize::from(*length)
-        && covered.iter().fold(0_u8, |sum, byte| sum.wrapping_add(*byte)) == *sum
-        && matches!(control & 0x4F, 0x40 | 0x43 | 0x44 | 0x4A | 0x4B | 0x08)
-        && !Fdl::carries_data(*next)
+    let Some([control, _, next]) = long_frame(bytes) else { return false };
+    matches!(control & 0x4F, 0x40 | 0x43 | 0x44 | 0x4A | 0x4B | 0x08) && !Fdl::carries_data(next)
 }
 
 /// FEh up to a few times; 68h, address (6), 68h, control, length, data, sum, 16h.
@@ -94,8 +94,12 @@ fn is_dlt_645(bytes: &[u8]) -> bool {
     let woken = bytes.iter().take_while(|byte| **byte == 0xFE).count();
     let [covered @ .., sum, 0x16] = &bytes[woken..] else { return false };
     let [0x68, _, _, _, _, _, _, 0x68, _, length, data @ ..] = covered else { return false };
-    data.len() == usize::from(*length)
-        && covered.iter().fold(0_u8, |sum, byte| sum.wrapping_add(*byte)) == *sum
+    (data.len(), sum_of(covered)) == (usize::from(*length), *sum)
+}
+
+/// The sum of bytes, in one.
+fn sum_of(bytes: &[u8]) -> u8 {
+    bytes.iter().fold(0, |sum, byte| sum.wrapping_add(*byte))
 }
 
 /// 7Eh, format and length (A0h and more), addresses, …, FCS, 7Eh.

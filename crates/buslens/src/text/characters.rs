@@ -30,9 +30,7 @@ pub fn character(text: &[u8]) -> (u8, usize) {
             (byte, 2)
         }
         // A letter of Latin-1 in UTF-8 is its byte.
-        [lead @ (0xC2 | 0xC3), next, ..] if (0x80..0xC0).contains(next) => {
-            (((lead & 3) << 6) + (next & 0x3F), 2)
-        }
+        [lead @ (0xC2 | 0xC3), next @ 0x80..0xC0, ..] => (((lead & 3) << 6) + (next & 0x3F), 2),
         [c, ..] => (*c, 1),
         [] => (0, 1),
     }
@@ -81,9 +79,10 @@ pub fn separator(gap: &[u8]) -> Option<u8> {
             b'.' if gap.get(at + 1) == Some(&b'.') => return None,
             b' ' | b'\t' => blank = true,
             b'*' | b'_' | b'~' => emphasis = if emphasis == 0 { *c } else { emphasis },
-            b'%' if gap[at..].starts_with(URL_BLANK) => {
-                at += URL_BLANK.len() - 1;
+            // Bytes follow it.
+            b'%' if gap[at..] == *URL_BLANK => {
                 blank = true;
+                break;
             }
             b',' | b';' | b':' | b'.' | b'-' | b'|' | b'/' | b'[' | b']' | b'<' | b'>' | b'"' | b'\''
             | b'$' | b'%' | b'#' => mark = if mark == 0 { *c } else { mark },
@@ -220,9 +219,9 @@ pub fn is_port(word: &[u8]) -> bool {
         return false;
     }
     let numbered = |prefix: &[u8]| {
-        word.len() > prefix.len()
-            && word[..prefix.len()].eq_ignore_ascii_case(prefix)
-            && word[prefix.len()..].iter().all(|c| is_digit(*c))
+        word.split_at_checked(prefix.len()).is_some_and(|(name, number)| {
+            name.eq_ignore_ascii_case(prefix) && number.iter().all(|c| is_digit(*c))
+        })
     };
     [b"com".as_slice(), b"ttyusb", b"ttys", b"ttyacm", b"ttyama"].into_iter().any(numbered)
 }

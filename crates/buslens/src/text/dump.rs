@@ -80,7 +80,7 @@ impl Dump {
             _ if offset == 0 => row(0, false),
             Some(next) if values.contains(&Some(next)) => row(next, true),
             // Rows are missing.
-            Some(next) if offset > next && offset.is_multiple_of(8) => row(offset, true),
+            Some(next) if (next..).contains(&offset) && offset.is_multiple_of(8) => row(offset, true),
             None if self.streams.is_empty() && offset.is_multiple_of(8) && (alone || colon) => {
                 row(offset, false)
             }

@@ -163,8 +163,8 @@ fn begins_array(text: &[u8]) -> bool {
 #[derive(Debug, Default)]
 struct List {
     bytes: Vec<u8>,
+    /// As long as `bytes`, if all can be decimal numbers.
     decimal: Vec<u8>,
-    both: bool,
     places: Vec<Span>,
     breaks: Vec<usize>,
     line: u32,
@@ -247,10 +247,9 @@ impl Reader {
             let row = if *row == 0 { u32::MAX } else { self.line - row };
             (time, sender, port, self.line - line, offset, row, number, leftovers).hash(hasher);
         }
-        let List { bytes, decimal, both, places, breaks, line, offset, facts, sender, time } = &self.list;
+        let List { bytes, decimal, places, breaks, line, offset, facts, sender, time } = &self.list;
         if !bytes.is_empty() {
-            (bytes, decimal, both, places, breaks, self.line - line, offset, facts, sender, time)
-                .hash(hasher);
+            (bytes, decimal, places, breaks, self.line - line, offset, facts, sender, time).hash(hasher);
         }
         self.columns.hash_state(self.line, hasher);
     }
@@ -619,7 +618,6 @@ impl Reader {
             let array = facts.array || self.array;
             self.list.facts = Facts { wrapped: true, said: self.list.sender.is_some(), array, ..facts };
             (self.list.line, self.list.offset, self.list.time) = (self.line, self.offset, time);
-            self.list.both = true;
         } else {
             self.list.breaks.push(self.list.bytes.len());
         }
@@ -630,7 +628,7 @@ impl Reader {
             match self.scan.decimal_bytes(run) {
                 Some(decimal) if self.form.numbers.is_none() => self.list.decimal.extend_from_slice(decimal),
                 _ if run.marked => self.list.decimal.extend_from_slice(bytes),
-                _ => self.list.both = false,
+                _ => {}
             }
             self.list
                 .places
@@ -643,12 +641,12 @@ impl Reader {
     }
 
     fn end_list(&mut self, sink: &mut dyn FnMut(Event<'_>)) {
-        let List { bytes, decimal, both, places, breaks, line, offset, facts, sender, time } = &mut self.list;
+        let List { bytes, decimal, places, breaks, line, offset, facts, sender, time } = &mut self.list;
         if bytes.is_empty() {
             return;
         }
         sink(Event::Piece(Piece {
-            decimal: (*both && decimal.len() == bytes.len() && decimal != bytes).then_some(decimal),
+            decimal: (decimal.len() == bytes.len() && decimal != bytes).then_some(decimal),
             bytes,
             breaks,
             places,
@@ -970,7 +968,12 @@ impl Written {
 }
 
 #[cfg(test)]
+#[path = "../../tests/random/mod.rs"]
+mod random;
+
+#[cfg(test)]
 mod tests {
+    use super::random::random;
     use super::*;
 
     /// What is given of the pieces of a text, but for their places in the file.
@@ -1012,6 +1015,156 @@ mod tests {
             let mut reader = Reader::new(form.clone());
             for line in [first, first, second, third] {
                 assert_eq!(given(&mut reader, line), given(&mut Reader::new(form.clone()), line), "{line}");
+            }
+        }
+    }
+
+    /// Lines that patterns could be made of, and others that are nearly so.
+    const LINES: &[&str] = &[
+        "TX: 01 03 00 C8 00 03 84 35",
+        "09:30:05.123 TX: 01 03 00 C8 00 03",
+        "2026-03-02 09:30:05 [x] 01-03-00-c8-00-03",
+        "2026-03-02 01:03:00:C8:00",
+        "2026-03-02   01:03:00:C8:00",
+        "000017-Tx:01 03 00 C8 00 03 84 35",
+        "id 12345 rx 01  03  00  C8  00",
+        "[01][03][00][C8][00][03]",
+        "<01><03><00><C8><00><03>",
+        ">>> 01:03:00:C8:00:03  ",
+        "10.0.0.7:49152 -> 10.0.0.1:502 01 03 00 C8 00",
+        "Tx=010300c800038435",
+        ":010300C800032D",
+        "Raw >>> {0x01, 0x03, 0x00, 0xC8, 0x00}",
+        "rx: 0x01 0x03 0x00 0xC8 0x00, len 5",
+        "[09:30:05] rx: 01.03.00.C8.00 (5 bytes in 12 ms)",
+        "TX 0x01 , 0x03 , 0x00 , 0xC8 , 0x00",
+        "rx 01 03 00 C8 00 03 len 6 of 00006",
+        "TX: 30 30 31 32 33  00123",
+        "TX: 30 30 31 32 33 |00123|",
+        "01 03 00 C8 00 at 09:30:05",
+        "{\"data\":\"01 03 00 C8 00 03\"}",
+        "len=00006 01 03 00 C8 00 03",
+        "5 01 03 00 C8 00",
+        "COM 12: 01 03 00 C8 00",
+        "0010: 01 03 00 C8 00",
+        "x -01 03 00 C8 00",
+        r"\x01 01 03 00 C8 00",
+        "TX 01 03 00 C8 00 RX 01 03 00 C8 00 05",
+        "tx 01 03 00 C8 00 123 56 rx",
+        "rx 0xC8 0x00 5 01 03 00 C8 00",
+        "01 03 00 C8 00 03 [12 bytes]",
+        "TX 01#03#00#C8#00",
+        "rx 01 03 00 C8 00 ... 84 35",
+        "rx 01 03 00 C8 00 [CRC]",
+        "a 123 | 01 03 00 C8 00 | b",
+        "TX 1, 3, 0, 200, 0, 3",
+        "TX: 01h 03h 00h C8h 00h",
+        "rx (7): 01 03 02 00 05 78 44",
+        "n 12345678 01 03 00 C8 00",
+        "n 1234567 010300C8AB",
+        "n 123/456 rx: 01 03 00 C8 00",
+        "v1.234 -123 rx 01 03 00 C8 00",
+        "123# 01 03 00 C8 00",
+        "1775000000001 tx 01 03 00 C8 00",
+        "TX 0103 00C8 0003",
+        "0x01 0x03 0x00 0xC8 0x00 (sent)",
+        "rx 0x01 0x03 0x00 0xC8 0x00 from unit 0x11",
+        "E5 12345 rx 68 05 05 68 81 82 5D 3B 3E D9 16",
+    ];
+
+    /// A line with other digits, and perhaps another sign.
+    fn varied(line: &str, random: &mut impl FnMut(u64) -> u64) -> String {
+        const SIGNS: &[u8] = b" ,;:-./|x[]()<>h#0A19";
+        let mut text = line.as_bytes().to_vec();
+        for c in &mut text {
+            let digits: &[u8] = match c {
+                b'A' | b'C' | b'E' => b"0123456789ABCDEF",
+                b'0'..=b'9' => b"0123456789",
+                _ => continue,
+            };
+            if random(1) > 0 {
+                *c = digits[random(digits.len() as u64 - 1) as usize];
+            }
+        }
+        let at = random(text.len() as u64 - 1) as usize;
+        let sign = SIGNS[random(SIGNS.len() as u64 - 1) as usize];
+        match random(7) {
+            0 => text[at] = sign,
+            1 => text.insert(at, sign),
+            2 => drop(text.remove(at)),
+            // One byte more or less.
+            3 => drop(text.splice(at.., text[at.saturating_sub(3)..].to_vec())),
+            4 => drop(text.drain(at..(at + 3).min(text.len()))),
+            _ => {}
+        }
+        String::from_utf8(text).expect("its signs are ASCII")
+    }
+
+    #[test]
+    fn what_is_like_others_is_given_as_if_they_were_forgotten() {
+        let mut random = random(1);
+        for (nth, line) in LINES.iter().enumerate() {
+            for numbers in [Some(Numbers::Hex), None, Some(Numbers::Decimal)] {
+                let [mut reader, mut forgetful] =
+                    [0, 1].map(|_| Reader::new(Form { numbers, ..Form::default() }));
+                for _ in 0..100 {
+                    for line in [line.to_string(), varied(line, &mut random)] {
+                        forgetful.alike = Alike::default();
+                        assert_eq!(given(&mut reader, &line), given(&mut forgetful, &line), "{nth}: {line}");
+                    }
+                }
+            }
+        }
+    }
+
+    /// Numbers of all spellings that follow each other.
+    const NUMBERS: &[&str] = &[
+        "0x01, 0x03, 0x00, 0xC8, 0x00",
+        "0x1 0x3 0x0 0xC8 0x5",
+        "1, 3, 0, 200, 0, 3",
+        "200 201 3 4 50",
+        "tx 0103 00C8 0003 8435",
+        "01h, 03h, 0Ch, 12h",
+        "9h 8h 7h Ah Bh 12h",
+        "01   03   00   C8   00",
+        "01 , 03 , 00 , C8 , 00",
+        "{1,3,0,200,-56,7}",
+        "01 - 03 - 00 - C8 - 00",
+        "[01] [03] [00] [C8] [00]",
+        "1 3 0 20 0 3 13 53",
+        "01:03:00:C8:00:1",
+        "0x01,0x03,0x00,3,4",
+        "01 03 00 C8 0 5 6",
+        "$01,$03,$00,$C8",
+        "01%2003%2000%20C8",
+        "'0x01', '0x03', '0x00', '0xC8'",
+        "\"01\", \"03\", \"00\", \"C8\"",
+        "0x01 ,0x03 ,0x00 ,0xC8",
+        "12,34,56,78,90",
+        "1|3|0|200|3",
+        "tx 1, 3, 0, 20 and 5, 6, 7",
+        "1. 3. 0. 200. 3. 9",
+    ];
+
+    #[test]
+    fn numbers_like_those_before_are_read_as_if_asked_what_they_are() {
+        let mut random = random(2);
+        let read = |line: &str, numbers, slow| {
+            let mut scan = Scan::default();
+            scan.slow = slow;
+            scan.read(line.as_bytes(), Start::default(), numbers);
+            let decimal: Vec<_> = scan.runs.iter().map(|run| scan.decimal_bytes(run)).collect();
+            let Scan { hex, places, runs, breaks, time, words, slips, column, sender, .. } = &scan;
+            format!(
+                "{hex:?} {decimal:?} {places:?} {runs:?} {breaks:?} {time:?} {words} {slips} {column} {sender:?}"
+            )
+        };
+        for line in NUMBERS.iter().chain(LINES) {
+            for numbers in [Some(Numbers::Hex), None, Some(Numbers::Decimal)] {
+                for _ in 0..60 {
+                    let line = varied(line, &mut random);
+                    assert_eq!(read(&line, numbers, false), read(&line, numbers, true), "{line} {numbers:?}");
+                }
             }
         }
     }

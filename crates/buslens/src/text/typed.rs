@@ -84,7 +84,7 @@ pub fn looks_typed(line: &str) -> bool {
     let (hex, all) =
         letters.fold((0, 0), |(hex, all), c| (hex + usize::from(c.is_ascii_hexdigit()), all + 1));
     let short = line.split(|c: char| !is_letter_or_digit(c)).all(|word| word.len() <= WORD);
-    all > 0 && hex * 4 >= all * 3 && short && line.chars().any(|c| c.is_ascii_digit())
+    hex * 4 >= all * 3 && short && line.chars().any(|c| c.is_ascii_digit())
 }
 
 /// What is wrong with `word`, behind so many digits of bytes.

@@ -123,13 +123,14 @@ fn compare(file: &[u8], trial: &Trial, random: &mut Random, what: &str) -> (usiz
 
 /// A log of exchanges in which some telegrams are damaged, lost or late, with prose between them.
 fn with_faults(index: usize, seed: u64, count: usize) -> Vec<u8> {
-    const PROSE: [&str; 6] = [
+    const PROSE: [&str; 7] = [
         "Operator restarted pump 4, ticket 20260401 is open.",
         "10:15:00.000 connection lost, timeout",
         "",
         "--- second page ---",
         "setpoint 50 % from 12:30 on, all 4 units fine",
         "[100, 2150, 0]",
+        "polled 10 5B 0A 65 16 of the heat meter",
     ];
     let program = &PROGRAMS[index];
     let mut random = Random(seed);

@@ -206,6 +206,14 @@ fn logs_with_marks() {
     // Pieces on both sides of a mark.
     let halves = "RX: 01 03 06 00 80\nRX: 42 A4 F1 DE B0 F8\nTX: 01 03 00 C8 00 03 84 35\n";
     divided(&mut table, "halves", &(halves.repeat(300) + &halves.repeat(100)), &usual);
+    // Without checks nothing is beyond doubt, and a block ends between two that are not.
+    let unchecked = "TX: 01 03 00 C8 00 03\nRX: 01 03 06 00 80 42 A4 F1 DE\n";
+    let doubtful = "so 05 06 00 C9 00 03 it\nTX: 41 00 23 00 00 00 00 00\n";
+    let text = unchecked.repeat(450) + &"nothing is said here\n".repeat(300) + doubtful;
+    divided(&mut table, "no checks, then prose", &text, &["01 03 00 C8 00 03", "01 03 06 00 80 42 A4 F1 DE"]);
+    // Where all lines are telegrams, so is one between nothing.
+    let alone = format!("{ASKS}\n{ANSWERS}\n").repeat(400) + &"\n".repeat(5_000) + "77 88 99 AA BB CC\n";
+    divided(&mut table, "one among nothing", &(alone + &"\n".repeat(5_000)), &usual);
     // Times, over midnight and with dates.
     let timed = |n: usize, date: &str| {
         let time = |n: usize| format!("{date}{:02}:{:02}:{:02}", n / 3600 % 24, n / 60 % 60, n % 60);

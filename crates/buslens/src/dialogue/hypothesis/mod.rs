@@ -142,8 +142,9 @@ impl Hypothesis {
     /// How likely such a telegram is found although nothing of the kind happened: "1 in 29".
     pub fn odds(&self) -> Message {
         match self.tries {
-            Some(tries) if tries * 2 <= self.checks => message!("1 in {n}", n = self.checks / tries.max(1)),
-            Some(tries) if tries < self.checks => message!("1 in 2"),
+            Some(tries) if tries < self.checks => {
+                message!("1 in {n}", n = (self.checks / tries.max(1)).max(2))
+            }
             _ => message!("always"),
         }
     }
@@ -285,6 +286,21 @@ mod tests {
         let all = hypotheses(&bytes(found), &modbus_rtu::PROTOCOL, context);
         assert!(all.iter().all(|one| one.protocol.is_some() || crc::residue(&one.bytes) == 0));
         all.into_iter().filter(|one| one.bytes == right).map(|one| one.cause).collect()
+    }
+
+    #[test]
+    fn how_often_chance_finds_one() {
+        let found = bytes("01 03 00 C8 00 03 84 36");
+        let odds = |tries| {
+            let known = Hypothesis::known(Cause::CheckWrong, &found, found.clone());
+            Hypothesis { tries, checks: 256, ..known }.odds().to_string()
+        };
+        for (tries, said) in
+            [(0, "1 in 256"), (1, "1 in 256"), (9, "1 in 28"), (129, "1 in 2"), (255, "1 in 2")]
+        {
+            assert_eq!(odds(Some(tries)), said, "{tries}");
+        }
+        assert_eq!([Some(256), None].map(odds), ["always"; 2]);
     }
 
     #[test]

@@ -238,7 +238,7 @@ impl Traffic {
             return;
         }
         let lane = &mut self.lanes[index];
-        if lane.streaming && lane.buffer.is_empty() && !self.flowing {
+        if lane.streaming && lane.buffer.is_empty() {
             // The usual way of a stream: nothing of it is copied but what is left over.
             lane.rows.clear();
             lane.rows.push(row);
@@ -443,7 +443,7 @@ impl Traffic {
         let row = self.lanes[index].row(from);
         let (port, hint) = (row.port, row.hint);
         let said = match role {
-            Role::Plain if self.room > 0 => self.describe(port, hint, bytes, protocol, verdict),
+            Role::Plain => self.describe(port, hint, bytes, protocol, verdict),
             _ => Said::default(),
         };
         self.enter(index, bytes, from, kept, number(protocol), verdict, role, said);
@@ -610,10 +610,9 @@ impl Traffic {
             return false;
         };
         let asked = u16::from_be_bytes([*high, *low]);
-        Some(waiting.unit) == unit
-            && waiting.function == *function
-            && waiting.length == Some(u16::from(*count) + 5)
-            && asked.wrapping_mul(2) != u16::from(*count)
+        let count = u16::from(*count);
+        (Some(waiting.unit), waiting.function, waiting.length) == (unit, *function, Some(count + 5))
+            && asked.wrapping_mul(2) != count
     }
 }
 

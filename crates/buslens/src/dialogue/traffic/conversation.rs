@@ -212,11 +212,6 @@ fn alike(one: &[u8], other: &[u8]) -> bool {
     (one.len(), one.last()) == (other.len(), other.last()) && one == other
 }
 
-/// Whether a telegram begins with a shorter one.
-fn begins_with(own: &[u8], shorter: &[u8]) -> bool {
-    shorter.len() > 2 && own.len() > shorter.len() && own.starts_with(shorter)
-}
-
 /// Whether the response of a function repeats the request.
 fn repeats_request(entry: &Entry) -> bool {
     entry.verdict != Verdict::Wrong && matches!(entry.function, 5 | 6 | 22)
@@ -351,6 +346,10 @@ impl Port {
                 })
             }
         };
+        let continued = || {
+            let before = self.previous.filter(|_| entry.sides == [false; 2]).map(|it| window.get(it));
+            before.filter(|(_, before)| own.starts_with(before))
+        };
         let again = self.echoed && last.is_some_and(|(request, _)| is_same(&request));
         let echoes =
             habits.echo && !self.echoed && (entry.sides[0] || entry.sides == [false; 2]) && repeats();
@@ -370,14 +369,8 @@ impl Port {
                 let same = asked.is_some_and(|asked| asked.starts_with(own) || own.starts_with(asked));
                 if same { Direction::Response } else { Direction::Request }
             }
-            // What was cut before comes whole now.
-            _ if entry.sides == [false; 2]
-                && self.previous.is_some_and(|it| begins_with(own, window.get(it).1)) =>
-            {
-                self.previous.map_or(Direction::Request, |it| window.get(it).0.direction)
-            }
-            // Of a function that is not known the same bytes again are another try.
-            _ if awaited && entry.sides == [false; 2] && repeats() => Direction::Request,
+            // Of a function that is not known the same bytes again are another try, and what was cut comes whole.
+            _ if let Some((before, _)) = continued() => before.direction,
             _ if awaited => Direction::Response,
             _ => Direction::Request,
         };
@@ -395,7 +388,7 @@ impl Port {
             return;
         }
         let (mut role, mut partner) = (entry.role, entry.partner);
-        let most = if protocol.waiting > 1 { protocol.waiting } else { LATE };
+        let most = protocol.waiting.max(LATE);
         match (direction, exchange) {
             (Direction::Request, None) => role = Role::Broadcast,
             (Direction::Request, Some(exchange)) => {

@@ -9,7 +9,7 @@ use crate::dialogue::evidence::{self, CONVERSATION, MISPRINTED, OTHER_KIND, SAME
 use crate::dialogue::{Candidate, Certainty, protocols, turns};
 use crate::field::{Direction, Facts, Span};
 use crate::frame::{
-    Protocol, Speaker, Verdict, modbus_ascii, modbus_pdu, modbus_rtu, modbus_tcp, modbus_unchecked,
+    Bus, Protocol, Speaker, Verdict, modbus_ascii, modbus_pdu, modbus_rtu, modbus_tcp, modbus_unchecked,
     profibus_fdl,
 };
 use crate::modbus::EXCEPTION;
@@ -149,20 +149,10 @@ enum Family {
 }
 
 fn family(protocol: &Protocol) -> Family {
-    match () {
-        () if protocol.is(&modbus_tcp::PROTOCOL) => Family::Tcp,
-        () if [
-            &modbus_rtu::PROTOCOL,
-            &modbus_ascii::PROTOCOL,
-            &modbus_pdu::PROTOCOL,
-            &modbus_unchecked::PROTOCOL,
-        ]
-        .into_iter()
-        .any(|serial| protocol.is(serial)) =>
-        {
-            Family::Serial
-        }
-        () => Family::Profibus,
+    match protocol.bus() {
+        Bus::Modbus if protocol.is(&modbus_tcp::PROTOCOL) => Family::Tcp,
+        Bus::Modbus => Family::Serial,
+        Bus::Profibus => Family::Profibus,
     }
 }
 
@@ -650,9 +640,8 @@ pub(super) struct Known {
 impl Known {
     /// Begins with what the beginning of a log told.
     fn behind(beginning: &Arc<Self>) -> Self {
-        let Self { typed, entries, read, threshold, misprinted, families, .. } = **beginning;
-        let beginning = Some(Arc::clone(beginning));
-        Self { typed, entries, read, threshold, misprinted, families, beginning, ..Self::default() }
+        let Self { entries, read, families, .. } = **beginning;
+        Self { entries, read, families, beginning: Some(Arc::clone(beginning)), ..Self::default() }
     }
 
     fn has_seen(&self, unit: u8, function: u8) -> bool {
@@ -727,7 +716,7 @@ impl Known {
     /// If it is one without its end: which sides that can be of.
     fn is_cut_copy(&self, entry: &Entry, data: &[u8]) -> Option<[bool; 2]> {
         let own = bytes(entry, data);
-        let whole = self.alike(own).find(|(known, _)| known.len() > own.len() && known.starts_with(own));
+        let whole = self.alike(own).find(|(known, _)| known.starts_with(own));
         whole.map(|(_, sides)| *sides)
     }
 

@@ -319,8 +319,7 @@ impl Traffic {
             return true;
         }
         let lengths = self.splitter.rtu_lengths(bytes);
-        let shorter =
-            lengths.into_iter().flatten().any(|length| length < bytes.len() && is_right(&bytes[..length]));
+        let shorter = lengths.into_iter().flatten().any(|length| bytes.get(..length).is_some_and(is_right));
         // Only a zero leaves a check right, so that one is all that can be missing.
         let longer = lengths.into_iter().flatten().any(|length| length == bytes.len() + 1);
         bytes.len() > 4 && !shorter && !longer
@@ -363,9 +362,10 @@ impl Traffic {
         let (covered, protocol) = std::cmp::max_by_key(fdl, rtu, |(covered, _)| *covered);
         let mut at = 0;
         let mut waiting = self.waiting_at(index);
-        while covered > 0 && at < bytes.len() {
-            let waiting_now = waiting.as_ref();
-            let place = Place { bytes: &bytes[at..], last: true, in_step: false, waiting: waiting_now };
+        while covered > 0
+            && let rest @ [_, ..] = &bytes[at..]
+        {
+            let place = Place { bytes: rest, last: true, in_step: false, waiting: waiting.as_ref() };
             match self.splitter.begins(protocol, place) {
                 Begins::Telegram(length) => {
                     let telegram = &bytes[at..at + length];
@@ -594,9 +594,8 @@ impl Traffic {
         let [unit, function, ..] = *bytes else { return false };
         let awaited = self.waiting_at(index).is_some_and(|it| (it.unit, it.function) == (unit, function));
         let rtu = unit <= 247 && self.splitter.is_beginning(bytes);
-        let fdl = profibus_fdl::Fdl::length(bytes).is_some_and(|length| length > bytes.len())
-            && bytes.len() > 3
-            && bytes[0] == profibus_fdl::SD2;
+        let fdl = bytes[0] == profibus_fdl::SD2
+            && profibus_fdl::Fdl::length(bytes).is_some_and(|length| length > bytes.len());
         let tcp = self.begins_over_tcp(bytes);
         bytes.len() < modbus_rtu::RTU.longest()
             && (rtu || fdl || tcp || (awaited && !self.splitter.knows(function)))
@@ -645,7 +644,7 @@ impl Traffic {
         };
         let begins = (0..=STRAY.min(bytes.len())).filter(begins).find(awaited);
         self.add_weak(index, part, from, &facts, reading);
-        let added = (self.entries.len() > before).then_some(before as u32);
+        let added = (before as u32..self.entries.len() as u32).next();
         if let Some(held) = self.lanes[index]
             .held
             .as_mut()
@@ -753,7 +752,7 @@ fn is_apart(held: &Held, row: Row) -> bool {
 /// it is none.
 fn parts(breaks: &[usize], length: usize) -> impl Iterator<Item = (usize, usize)> {
     let ends = move |from: usize| {
-        let later = breaks.iter().rev().copied().filter(move |to| *to > from);
+        let later = breaks.iter().rev().copied().take_while(move |to| *to != from);
         std::iter::once(length).chain(later).map(move |to| (from, to))
     };
     let begins = breaks.iter().copied().chain([0]);

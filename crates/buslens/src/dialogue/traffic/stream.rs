@@ -105,7 +105,7 @@ impl Traffic {
             if flowing && !last && bytes.len() - at < SEEN {
                 break;
             }
-            if in_step && main.is(&modbus_rtu::PROTOCOL) && !flowing && !self.both_ways {
+            if in_step && main.is(&modbus_rtu::PROTOCOL) && !flowing {
                 self.framed.clear();
                 let run = self.splitter.run(&bytes[at..], last, &mut self.waiting[port], &mut self.framed);
                 if run > 0 {

@@ -341,7 +341,7 @@ impl Scan {
             self.join(line, at, to, first, Kind { style: Style::Contiguous, ..PLAIN });
             return Some(to);
         }
-        let run = self.open_mut().filter(|run| run.hex && !run.marked && run.tokens > 0)?;
+        let run = self.open_mut().filter(|run| run.hex && !run.marked)?;
         let separated = blank && run.style == Style::Separated;
         let typed = match text {
             [_] => !is_digit(text[0]) && !matches!(text[0], b'x' | b'X'),
