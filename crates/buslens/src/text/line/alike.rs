@@ -9,7 +9,9 @@
 
 use super::{Numbers, Scan, Style};
 use crate::field::{Facts, Span};
-use crate::text::characters::{DIGITS, decimal, is_bits, is_digit, is_serial_number, separator};
+use crate::text::characters::{
+    DIGITS, decimal, is_bits, is_digit, is_phone_number, is_serial_number, separator,
+};
 use crate::text::dump::has_offset;
 use crate::text::words::Sender;
 
@@ -66,6 +68,11 @@ impl Pairs {
     pub fn places(self, count: usize) -> impl Iterator<Item = Span> {
         let begins = move |nth| self.from + nth * self.step;
         (0..count).map(move |nth| Span::new(begins(nth), begins(nth) + self.width))
+    }
+
+    /// All of so many.
+    fn span(self, count: usize) -> Span {
+        Span::new(self.from, self.from + (count - 1) * self.step + self.width)
     }
 
     /// As [`Scan::pairs`] has them.
@@ -157,8 +164,11 @@ impl Alike {
             (Some(mut told), Some(row)) => {
                 told.facts.counted = pattern.is_counted(row, line, self.bytes.len());
                 let (pairs, port) = (row.pairs, pattern.scan.port.as_slice());
+                let digits = pairs.span(self.bytes.len()).of(line);
                 if pairs.step == 2 {
-                    told.facts.digits = is_serial_number(&line[pairs.from..][..2 * self.bytes.len()]);
+                    told.facts.digits = is_serial_number(digits);
+                } else if !told.facts.listed {
+                    told.facts.digits = is_phone_number(digits);
                 }
                 Like::Told { told, bytes: &self.bytes, time, pairs, port }
             }
