@@ -731,6 +731,9 @@ mod tests {
             ("TX;01h 03h 00h C8h 00h;ok", "TX;81h 13h 00h 0aH 10h 1Fh;ok"),
             ("TX;01h 03h 00h C8h 00h;ok", "TX;81h 13h 00h 0ah 10h 1F;ok"),
             ("12345\tTX\t01 03 00 C8 00\tOK", "123456\tTX\t01 03 00 C8 00\tOK"),
+            // A lone digit takes as much room, and one behind a quote counts nothing.
+            ("TX 01,03,00, 8,05 (5)", "TX 01,03,00,C8,05 (5)"),
+            ("01] [03] [00] [C8] [00] ['1 bytes]", "01] [03] [00] [C8] [00] [3b bytes]"),
             ("TX: 01 03 00 C8", "TX: 01 03 00 C8 00"),
             ("TX: 01 03 00 C8", "TX: 11 03 00 C8"),
         ] {
