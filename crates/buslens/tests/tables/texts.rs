@@ -405,6 +405,7 @@ pub const SURROUNDINGS: &[&str] = &[
     "tx '\\017\\003\\000\\255\\005'",
     "tx '\\017\\003\\000\\256\\005'",
     "01 03 00 00MQ 05",
+    "it's \"\\x01\\x03\\x00\\xC8\" tx",
 ];
 
 /// Times in front of bytes.
