@@ -32,8 +32,7 @@ impl Scan {
             && (digits.iter().any(|c| is_digit(*c)) || digits.iter().all(u8::is_ascii_uppercase));
         match (suffixed, digits) {
             (true, [_] | [_, _] | [b'0', _, _]) => {
-                let from = if digits.len() == 3 { at + 1 } else { at };
-                self.push_marked(hex_value(&line[from..at + digits.len()]), at, to);
+                self.push_marked(hex_value(digits), at, to);
                 Token::Bytes(marked(Style::Suffixed))
             }
             (true, [_, _, _, _]) => {
@@ -58,8 +57,7 @@ impl Scan {
         }
         let decimal = all & DIGIT != 0 && count <= 3 && !self.hex_only();
         let value = if decimal { text.iter().fold(0, |sum, c| sum * 10 + u32::from(c - b'0')) } else { 256 };
-        let hex =
-            count != 3 && (count < 2 || count.is_multiple_of(2)) && self.numbers != Some(Numbers::Decimal);
+        let hex = (count == 1 || count.is_multiple_of(2)) && self.numbers != Some(Numbers::Decimal);
         match (hex, value < 256) {
             (false, false) => Token::Word,
             (false, true) => {
@@ -165,9 +163,9 @@ impl Scan {
         self.clear();
         self.numbers = Some(Numbers::Hex);
         let mut at = from;
-        while at < line.len() {
-            let count = line[at..].iter().take_while(|c| (b'0'..=b'7').contains(*c)).count();
-            let digits = &line[at..at + count];
+        while let rest @ [_, ..] = &line[at..] {
+            let count = rest.iter().take_while(|c| (b'0'..=b'7').contains(*c)).count();
+            let digits = &rest[..count];
             let value = digits.iter().take(6).fold(0_u32, |value, c| value * 8 + u32::from(c - b'0'));
             let first = self.hex.len();
             match (count, value) {
@@ -260,7 +258,10 @@ impl Scan {
         const ESCAPES: &[u8] = b"xX0123456789tnrabvfeu\\\"'";
         let quote = line[at];
         let [single, double] = &mut self.unclosed;
-        let unclosed = if quote == b'"' { double } else { single };
+        let unclosed = match quote {
+            b'"' => double,
+            _ => single,
+        };
         if *unclosed {
             return at + 1;
         }
