@@ -57,7 +57,7 @@ fn Checked(shown: Shown, check: Check, lights: Lights) -> impl IntoView {
                     })}
                 <dt>"As a number"</dt>
                 <dd>
-                    <code>{hex_value(check.computed_value(), check.width)}</code>
+                    <code>{hex_value(check.computed_value(), check.width).to_string()}</code>
                     " "
                     <span class="soft">
                         {name} " over "

@@ -39,9 +39,8 @@ pub fn CopyAs(#[prop(into)] shown: Signal<Option<Shown>>, #[prop(optional)] at_e
         Some(view! { <MenuItem on_choose=choose>"Characters"</MenuItem> })
     };
     let as_json = Callback::new(move |()| {
-        // Text and numbers always make JSON.
-        let line = |shown: Shown| json::line(&shown.report, shown.index, true).ok();
-        shown.get_untracked().and_then(line).into_iter().for_each(give);
+        let line = |shown: Shown| json::line(&shown.report, shown.index, true);
+        shown.get_untracked().map(line).into_iter().for_each(give);
     });
     view! {
         <Show when=move || shown.with(Option::is_some)>

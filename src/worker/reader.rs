@@ -315,8 +315,7 @@ impl<S: Source> Reader<S> {
         let one = |place: usize| match kind {
             Export::Csv => csv::telegram(&report, place),
             Export::Text => format!("\n{}", annotated::telegram(&report, place)),
-            // Text and numbers always make JSON.
-            _ => json::line(&report, place, kind == Export::JsonLinesWithFields).unwrap_or_default() + "\n",
+            _ => json::line(&report, place, kind == Export::JsonLinesWithFields) + "\n",
         };
         places.map(one).collect()
     }

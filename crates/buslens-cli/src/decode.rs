@@ -82,7 +82,7 @@ pub fn run(matches: &ArgMatches) -> Result<String, String> {
     let reading = Reading { input: Input::of(chosen("input")).unwrap_or_default(), ..Reading::default() };
     let path = matches.get_one::<std::path::PathBuf>("file").expect("it has a default");
     let report = decode_file(&read(path)?, &reading, options).map_err(|refusal| refusal.to_string())?;
-    json::lines(&report, matches.get_flag("fields")).map_err(|error| error.to_string())
+    Ok(json::lines(&report, matches.get_flag("fields")))
 }
 
 fn read_settings(path: &Path) -> Result<Settings, String> {

@@ -79,8 +79,7 @@ fn assert_inside(text: &str, options: Options) {
             inside(problem.span, problem.code);
         }
         detail.registers.iter().for_each(|span| inside(*span, "registers"));
-        let line: serde_json::Value =
-            serde_json::from_str(&json::line(&report, index, true).unwrap()).unwrap();
+        let line: serde_json::Value = serde_json::from_str(&json::line(&report, index, true)).unwrap();
         for problem in line["problems"].as_array().into_iter().flatten() {
             let to = problem["span"][1].as_u64().unwrap_or_default();
             assert!(to <= length as u64, "{shown}: {problem} in JSON");

@@ -54,7 +54,7 @@ fn numbers(number: &Number) -> Vec<String> {
     let plain = number_text(number.raw, number.width, number.format);
     let mut all = vec![plain.clone(), plain.replace('\u{2212}', "-"), plain.replace('.', ",")];
     if !matches!(number.format, Format::Float | Format::Places(_) | Format::Signed) {
-        let value = hex_value(number.raw, number.width);
+        let value = hex_value(number.raw, number.width).to_string();
         all.push(format!("0x{}", value.trim_end_matches('h')));
         all.push(value);
     }

@@ -222,7 +222,7 @@ impl Number {
     /// How the answer key writes it.
     pub fn text(&self) -> String {
         let text = match self.notation {
-            Notation::Hex => field::hex_value(self.raw, self.width),
+            Notation::Hex => field::number_text(self.raw, self.width, Format::Hex),
             Notation::Binary => format!("{:0digits$b}", self.raw, digits = 8 * self.width),
             Notation::Any | Notation::Decimal => field::number_text(self.raw, self.width, self.format),
         };

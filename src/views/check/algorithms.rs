@@ -24,7 +24,7 @@ fn comparisons(work: &Work) -> Vec<Comparison> {
         let over = if order.is_some() { data } else { work.data() };
         Comparison {
             checksum,
-            value: hex_value(checksum.value(over), checksum.algorithm.width),
+            value: hex_value(checksum.value(over), checksum.algorithm.width).to_string(),
             gives: order.map(|order| (hex(found), order)),
         }
     };

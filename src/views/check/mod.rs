@@ -174,7 +174,8 @@ fn Outcome() -> impl IntoView {
     let work = state.work();
     let name = move || work.with(|work| short(work.algorithm));
     let wire = Signal::derive(move || work.with(|work| hex(&work.wire())));
-    let number = Signal::derive(move || work.with(|work| hex_value(work.value(), work.algorithm.width)));
+    let number =
+        Signal::derive(move || work.with(|work| hex_value(work.value(), work.algorithm.width).to_string()));
     let there = move || work.with(|work| work.covered > 0);
     let value = move |shown: Signal<String>| {
         view! {

@@ -93,7 +93,7 @@ fn bits(Bits { name, value, out, class }: Bits, width: usize) -> impl IntoView {
                 <span class="cells" aria-hidden="true">{cells.collect_view()}</span>
                 {out}
             </td>
-            <td class="mono">{hex_value(value.into(), width)}</td>
+            <td class="mono">{hex_value(value.into(), width).to_string()}</td>
         </tr>
     }
 }

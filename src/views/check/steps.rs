@@ -23,7 +23,9 @@ pub fn Bytes() -> impl IntoView {
     let strip = NodeRef::<html::Ol>::new();
     let here = Memo::new(move |_| byte_of(state.step()));
     let bytes = move || work.with(|work| work.data().iter().copied().enumerate().collect::<Vec<_>>());
-    let behind = move |at: usize| work.with(|work| hex_value(work.behind(at).into(), work.algorithm.width));
+    let behind = move |at: usize| {
+        work.with(|work| hex_value(work.behind(at).into(), work.algorithm.width).to_string())
+    };
     let keys = move |event: KeyboardEvent| {
         if let Some(at) = strip.get_untracked().and_then(|strip| roving::follow(&event, &strip, "button")) {
             state.go(work.with_untracked(|work| work.done_with(at)));
@@ -248,7 +250,7 @@ pub fn StepList() -> impl IntoView {
                         {brief}
                     </button>
                 </th>
-                <td class="mono">{after}</td>
+                <td class="mono">{after.to_string()}</td>
             </tr>
         }
     };

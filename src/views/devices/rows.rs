@@ -6,7 +6,7 @@ use super::Remove;
 use super::state::DeviceSettings;
 use crate::components::combobox::Combobox;
 use crate::components::form::Edit;
-use buslens::field::{hex, hex_value};
+use buslens::field::{Format, hex, hex_value, number_text};
 use buslens::tool::Content;
 use buslens::tool::setup::{self, List, Parameter, Row};
 
@@ -54,7 +54,7 @@ pub fn Rows(list: List, title: &'static str, about: &'static str) -> impl IntoVi
 
 /// The place of a row as the manual writes it.
 fn place(place: u16, mapping: bool) -> String {
-    if mapping { hex_value(place.into(), 2) } else { place.to_string() }
+    number_text(place.into(), 2, if mapping { Format::Hex } else { Format::Decimal })
 }
 
 /// A row for screen readers, which meet several lists: "input word 1".
@@ -72,7 +72,7 @@ fn spoken(list: List, place: &str) -> String {
 fn named(address: u16) -> String {
     match setup::parameter(address) {
         Some(parameter) => format!("{} {}", parameter.id, parameter.label),
-        None => hex_value(address.into(), 2),
+        None => hex_value(address.into(), 2).to_string(),
     }
 }
 
@@ -82,7 +82,7 @@ fn TableRow(list: List, index: usize, row: Row, mapping: bool) -> impl IntoView 
     let place = place(row.place, mapping);
     let raw = match mapping {
         true => hex(&row.raw.to_be_bytes()),
-        false => hex_value(row.raw.into(), 2),
+        false => hex_value(row.raw.into(), 2).to_string(),
     };
     if row.second_half {
         return view! {
@@ -218,7 +218,7 @@ fn option(parameter: &Parameter) -> AnyView {
     view! {
         <b>{parameter.id}</b>
         <span>{parameter.label}</span>
-        <code>{hex_value(parameter.address.into(), 2)}</code>
+        <code>{hex_value(parameter.address.into(), 2).to_string()}</code>
     }
     .into_any()
 }

@@ -449,7 +449,7 @@ impl Default for Settings {
 
 /// An address in decimal or in hex.
 fn address_text(address: u16, hex: bool) -> String {
-    if hex { hex_value(address.into(), 2) } else { address.to_string() }
+    if hex { hex_value(address.into(), 2).to_string() } else { address.to_string() }
 }
 
 impl Area {

@@ -1,5 +1,8 @@
 use std::fmt;
 
+use super::HexValue;
+use super::number::{push_digits, push_signed};
+
 /// A sentence as a constant template with named arguments, so that a catalogue can translate it.
 ///
 /// Made with [`message!`](crate::message); shown in English by `Display`.
@@ -14,6 +17,9 @@ pub struct Message {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Argument {
     Number(u64),
+    /// A number that may be below 0.
+    Signed(i64),
+    Hex(HexValue),
     /// Text of the input or of the wire: never translated.
     Text(String),
     /// A word of ours that a catalogue translates by itself.
@@ -56,40 +62,72 @@ impl Message {
 
     /// The message in English with a capital first letter, to stand by itself.
     pub fn sentence(&self) -> String {
-        let mut text = self.to_string();
-        if let Some(first) = text.get_mut(..1) {
-            first.make_ascii_uppercase();
-        }
+        let mut text = String::new();
+        self.push_sentence(&mut text);
         text
     }
+
+    /// The sentence behind what `text` holds.
+    pub fn push_sentence(&self, text: &mut String) {
+        let from = text.len();
+        self.push_to(text);
+        if let Some(first) = text.get_mut(from..=from) {
+            first.make_ascii_uppercase();
+        }
+    }
+
+    /// The message in English behind what `text` holds.
+    pub fn push_to(&self, text: &mut String) {
+        let mut rest = self.template;
+        while let Some((before, after)) = split(rest, b'{') {
+            text.push_str(before);
+            let Some((name, after)) = split(after, b'}') else {
+                text.push('{');
+                rest = after;
+                break;
+            };
+            match self.arguments.iter().find(|(known, _)| *known == name) {
+                Some((_, argument)) => argument.push_to(text),
+                None => ["{", name, "}"].into_iter().for_each(|part| text.push_str(part)),
+            }
+            rest = after;
+        }
+        text.push_str(rest);
+    }
+}
+
+impl Argument {
+    fn push_to(&self, text: &mut String) {
+        match self {
+            Self::Number(number) => push_digits(text, *number, 1),
+            Self::Signed(number) => push_signed(text, *number),
+            Self::Hex(number) => number.push_to(text),
+            Self::Text(own) => text.push_str(own),
+            Self::Term(term) => text.push_str(term),
+            Self::Message(message) => message.push_to(text),
+        }
+    }
+}
+
+/// What stands before the first `mark`, which is of ASCII, and what behind it. Such texts are too short for the ways of
+/// the standard library to be worth their beginning.
+fn split(text: &str, mark: u8) -> Option<(&str, &str)> {
+    text.bytes().position(|byte| byte == mark).map(|at| (&text[..at], &text[at + 1..]))
 }
 
 impl fmt::Display for Message {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut rest = self.template;
-        while let Some((before, after)) = rest.split_once('{') {
-            f.write_str(before)?;
-            let Some((name, after)) = after.split_once('}') else {
-                return write!(f, "{{{after}");
-            };
-            match self.arguments.iter().find(|(known, _)| *known == name) {
-                Some((_, argument)) => write!(f, "{argument}")?,
-                None => write!(f, "{{{name}}}")?,
-            }
-            rest = after;
-        }
-        f.write_str(rest)
+        let mut text = String::new();
+        self.push_to(&mut text);
+        f.write_str(&text)
     }
 }
 
 impl fmt::Display for Argument {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Number(number) => write!(f, "{number}"),
-            Self::Text(text) => f.write_str(text),
-            Self::Term(term) => f.write_str(term),
-            Self::Message(message) => write!(f, "{message}"),
-        }
+        let mut text = String::new();
+        self.push_to(&mut text);
+        f.write_str(&text)
     }
 }
 
@@ -104,6 +142,18 @@ macro_rules! from_number {
 }
 
 from_number!(u8, u16, u32, u64, usize);
+
+impl From<i64> for Argument {
+    fn from(number: i64) -> Self {
+        Self::Signed(number)
+    }
+}
+
+impl From<HexValue> for Argument {
+    fn from(number: HexValue) -> Self {
+        Self::Hex(number)
+    }
+}
 
 impl From<String> for Argument {
     fn from(text: String) -> Self {

@@ -7,6 +7,7 @@ mod bits;
 mod facts;
 mod in_order;
 mod message;
+mod number;
 mod problem;
 mod spec;
 mod value;
@@ -15,11 +16,13 @@ pub use bits::Bits;
 pub use facts::Facts;
 pub use in_order::{in_order, in_order_by};
 pub use message::{Argument, Message};
+pub use number::{
+    HexValue, decimal, float, hex, hex_value, number_text, parse_float, push_digits, push_hex, push_number,
+    shortest,
+};
 pub use problem::{Problem, Severity};
 pub use spec::{Format, Name, Order, Range, Role, Spec};
-pub use value::{
-    Check, Value, decimal, escaped, float, hex, hex_value, number_text, parse_float, shortest, unescaped,
-};
+pub use value::{Check, Value, escaped, unescaped};
 
 /// A run of bytes: of a telegram, or of the text that it was read from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -151,7 +154,14 @@ impl Field {
 
     /// The value as a person writes it; empty for groups.
     pub fn value_text(&self) -> String {
-        self.value.text(self.spec)
+        let mut text = String::new();
+        self.push_value(&mut text);
+        text
+    }
+
+    /// The same behind what `text` holds.
+    pub fn push_value(&self, text: &mut String) {
+        self.value.push_text(text, self.spec);
     }
 
     /// What the value means, where there is more to say than the value itself.
@@ -196,6 +206,11 @@ pub fn problems(fields: &[Field]) -> Vec<&Problem> {
         field.visit(&mut |field| found.extend(&field.problems));
     }
     found
+}
+
+/// The first answer of `ask` to the fields of a tree, parents first.
+pub fn find<'a, T>(fields: &'a [Field], ask: &mut dyn FnMut(&'a Field) -> Option<T>) -> Option<T> {
+    fields.iter().find_map(|field| ask(field).or_else(|| find(&field.children, ask)))
 }
 
 /// The leaves of a tree, in the order of the bytes. Together they tile the telegram.

@@ -134,9 +134,13 @@ impl Order {
 
     /// The number that `bytes` hold.
     pub fn number(self, bytes: &[u8]) -> u64 {
+        let number = |bytes: &[u8]| bytes.iter().fold(0, |number, byte| number << 8 | u64::from(*byte));
+        if self == Self::Big {
+            return number(bytes);
+        }
         let mut bytes = bytes.to_vec();
         self.arrange(&mut bytes);
-        bytes.iter().fold(0, |number, byte| number << 8 | u64::from(*byte))
+        number(&bytes)
     }
 
     /// The `width` bytes of `number`.

@@ -1,3 +1,4 @@
+use super::number::{float, hex, hex_value, number_text, push_number, reference, signed};
 use super::{Argument, Bits, Format, Message, Name, Numbering, Range, Span, Spec};
 use crate::message;
 
@@ -75,15 +76,22 @@ impl Value {
         }
     }
 
-    pub(super) fn text(&self, spec: &Spec) -> String {
+    pub(super) fn push_text(&self, text: &mut String, spec: &Spec) {
         match self {
             Self::Number { raw, width } | Self::Selector { raw, width, .. } => {
-                let text = number_text(*raw, *width, spec.format);
-                if spec.unit.is_empty() { text } else { format!("{text} {}", spec.unit) }
+                push_number(text, *raw, *width, spec.format);
+                if !spec.unit.is_empty() {
+                    text.push(' ');
+                    text.push_str(spec.unit);
+                }
             }
-            Self::Check(check) => hex_value(check.found_value(), check.width),
-            Self::Text(text) => format!("“{text}”"),
-            Self::Group | Self::Bytes | Self::Missing { .. } => String::new(),
+            Self::Check(check) => hex_value(check.found_value(), check.width).push_to(text),
+            Self::Text(own) => {
+                for part in ["“", own, "”"] {
+                    text.push_str(part);
+                }
+            }
+            Self::Group | Self::Bytes | Self::Missing { .. } => {}
         }
     }
 
@@ -122,98 +130,6 @@ impl Value {
 /// What a value is called by where it lies, with the value itself: two of them can differ.
 fn in_range(range: &'static Range, raw: u64, width: usize) -> Message {
     message!("{range} ({value})", range = Argument::Term(range.label), value = hex_value(raw, width))
-}
-
-/// A number of `width` bytes as a form shows it and takes it again.
-pub fn number_text(raw: u64, width: usize, format: Format) -> String {
-    match format {
-        Format::Hex | Format::HexAddress | Format::Switches => hex_value(raw, width),
-        Format::Signed => minus(signed(raw, width)),
-        Format::Float => float(raw, width),
-        Format::Places(places) => {
-            let one = 10_u64.pow(places);
-            format!("{}.{:0digits$}", raw / one, raw % one, digits = places as usize)
-        }
-        Format::Decimal | Format::Reference(_) | Format::Register | Format::DayMonthYear | Format::Text => {
-            raw.to_string()
-        }
-    }
-}
-
-/// The IEEE 754 number of `width` bytes, as short as it can be told apart from its neighbours.
-///
-/// The standard library does the same, for 20 kB in the page.
-pub fn float(raw: u64, width: usize) -> String {
-    let mut buffer = [0; lexical_core::BUFFER_SIZE];
-    // The shortest digits of a number depend on how wide it is.
-    let (text, finite) = if width == 4 {
-        let value = f32::from_bits(raw as u32);
-        (lexical_core::write(value, &mut buffer), value.is_finite())
-    } else {
-        let value = f64::from_bits(raw);
-        (lexical_core::write(value, &mut buffer), value.is_finite())
-    };
-    if !finite {
-        let infinite = raw << (65 - 8 * width) == if width == 4 { 0xFF00_0000 << 32 } else { 0x7FF0 << 49 };
-        return match (infinite, raw >> (8 * width - 1)) {
-            (true, 0) => "infinity".to_owned(),
-            (true, _) => "\u{2212}infinity".to_owned(),
-            // Which of the many it is, so that writing it gives the same bytes.
-            (false, _) => format!("NaN({})", hex_value(raw, width)),
-        };
-    }
-    let text = std::str::from_utf8(text).unwrap_or_default();
-    text.strip_suffix(".0").unwrap_or(text).replace(".0e", "e").replace('-', "\u{2212}")
-}
-
-/// A number as short as it can be told apart from its neighbours.
-pub fn shortest(value: f64) -> String {
-    float(value.to_bits(), 8)
-}
-
-/// A number with so many places behind the point, at most 9, a half rounded away from 0; "0.0" for what is no number.
-///
-/// The standard library does the same, for 20 kB in the page.
-///
-/// ```
-/// use buslens::field::decimal;
-///
-/// assert_eq!(decimal(2.05, 1), "2.1");
-/// assert_eq!(decimal(-0.04, 1), "-0.0");
-/// assert_eq!(decimal(99.6, 0), "100");
-/// ```
-pub fn decimal(value: f64, places: u32) -> String {
-    let one = 10_u64.pow(places.min(9));
-    // What is larger than the type is its largest, as is everywhere with `as`.
-    let rounded = (value.abs() * one as f64 + 0.5) as u64;
-    let sign = if value.is_sign_negative() { "-" } else { "" };
-    let whole = rounded / one;
-    match places {
-        0 => format!("{sign}{whole}"),
-        _ => format!("{sign}{whole}.{:0digits$}", rounded % one, digits = places as usize),
-    }
-}
-
-/// The bits of the number that `text` writes, in `width` bytes; `None` where it is no number, or one
-/// that is too large.
-///
-/// ```
-/// use buslens::field::parse_float;
-///
-/// assert_eq!(parse_float("123.456", 4), Some(0x42F6_E979));
-/// assert_eq!(parse_float("1e99", 4), None);
-/// ```
-pub fn parse_float(text: &str, width: usize) -> Option<u64> {
-    let infinity = |text: &str| text.trim_start_matches('-') == "infinity";
-    let text = text.replace('\u{2212}', "-");
-    let value: f64 = lexical_core::parse(text.as_bytes()).ok()?;
-    // Rounding twice gives the same as rounding once for everything of less than 17 digits.
-    let (raw, finite) = match width {
-        4 => ((value as f32).to_bits().into(), (value as f32).is_finite()),
-        _ => (value.to_bits(), value.is_finite()),
-    };
-    // 1e99 is a number to us, and infinity to a float of 4 bytes: nobody means that.
-    (finite || infinity(&text)).then_some(raw)
 }
 
 /// "handshake 1, 2 bytes, write": the flags that are set and the numbers of the other parts. Three
@@ -329,48 +245,12 @@ fn shown_otherwise(raw: u64, width: usize, format: Format) -> Option<Message> {
         )),
         Format::HexAddress => Some(message!("decimal {raw}", raw = raw)),
         Format::Register => Some(match signed(raw, width) {
-            negative @ ..0 => message!(
-                "{hex}, signed {signed}",
-                hex = hex_value(raw, width),
-                signed = Argument::Text(minus(negative))
-            ),
+            negative @ ..0 => {
+                message!("{hex}, signed {signed}", hex = hex_value(raw, width), signed = negative)
+            }
             _ => message!("{hex}", hex = hex_value(raw, width)),
         }),
     }
-}
-
-/// The 4xxxx notation of a zero-based address: five digits as long as they suffice, else six.
-fn reference(digit: char, address: u64) -> String {
-    if address < 9999 { format!("{digit}{:04}", address + 1) } else { format!("{digit}{:05}", address + 1) }
-}
-
-fn minus(number: i64) -> String {
-    let sign = if number < 0 { "\u{2212}" } else { "" };
-    format!("{sign}{}", number.unsigned_abs())
-}
-
-fn signed(raw: u64, width: usize) -> i64 {
-    let unused = 64 - 8 * width as u32;
-    ((raw << unused) as i64) >> unused
-}
-
-/// Bytes in upper case hex with a space between: `01 03 00 C8`.
-pub fn hex(bytes: &[u8]) -> String {
-    const DIGITS: &[u8; 16] = b"0123456789ABCDEF";
-    let mut text = String::with_capacity(3 * bytes.len());
-    for (index, byte) in bytes.iter().enumerate() {
-        if index > 0 {
-            text.push(' ');
-        }
-        text.push(DIGITS[usize::from(byte >> 4)].into());
-        text.push(DIGITS[usize::from(byte & 15)].into());
-    }
-    text
-}
-
-/// A number of `width` bytes as the manuals write it: `00C8h`.
-pub fn hex_value(value: u64, width: usize) -> String {
-    format!("{value:0digits$X}h", digits = 2 * width)
 }
 
 /// Characters as text; what is not a printable one, and the backslash, as `\\x5C`.
@@ -407,23 +287,6 @@ pub fn unescaped(text: &str) -> Result<Vec<u8>, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn floats_are_as_short_as_they_can_be() {
-        for (raw, width, text) in [
-            (0x42F6_E979, 4, "123.456"),
-            (0x405E_DD2F_1A9F_BE77, 8, "123.456"),
-            (0x42A4_0000, 4, "82"),
-            (0xC974_23F0, 4, "\u{2212}999999"),
-            (0x0000_0001, 4, "1e\u{2212}45"),
-            (0x7F80_0000, 4, "infinity"),
-            (0xFF80_0000, 4, "\u{2212}infinity"),
-            (0x7FF0_0000_0000_0000, 8, "infinity"),
-            (0x7FC0_0001, 4, "NaN(7FC00001h)"),
-        ] {
-            assert_eq!(float(raw, width), text, "{raw:X}");
-        }
-    }
 
     #[test]
     fn text_comes_back() {

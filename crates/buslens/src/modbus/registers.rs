@@ -2,7 +2,7 @@
 //! and how many fit is in a [`Table`].
 
 use super::{Access, Body, Server};
-use crate::field::{Argument, Direction, Format, Message, Role, Severity, Spec, hex_value};
+use crate::field::{Argument, Direction, Format, Message, Role, Severity, Spec, hex_value, push_number};
 use crate::message;
 use crate::walk::{Telegram, Walk, Walker};
 
@@ -82,10 +82,10 @@ impl Table {
     }
 
     /// An address in the notation of the table: `200` or `2000h`.
-    pub(super) fn address(&self, address: u16) -> String {
+    pub(super) fn address(&self, address: u16) -> Argument {
         match self.start.format {
-            Format::HexAddress => hex_value(address.into(), 2),
-            _ => address.to_string(),
+            Format::HexAddress => hex_value(address.into(), 2).into(),
+            _ => address.into(),
         }
     }
 
@@ -103,13 +103,17 @@ impl Table {
     /// Values in a sentence: the first few, in the notation of the table.
     pub(super) fn listed(&self, values: &[u32]) -> String {
         const SHOWN: usize = 6;
-        let shown = values.iter().take(SHOWN).map(|value| match self.start.format {
-            Format::HexAddress => hex_value(u64::from(*value), self.width),
-            _ => value.to_string(),
-        });
-        let mut text = shown.collect::<Vec<_>>().join(", ");
-        if values.len() > SHOWN {
-            text.push_str(", …");
+        let format = if self.start.format == Format::HexAddress { Format::Hex } else { Format::Decimal };
+        let mut text = String::new();
+        for (place, value) in values.iter().enumerate() {
+            if place > 0 {
+                text.push_str(", ");
+            }
+            if place == SHOWN {
+                text.push('…');
+                break;
+            }
+            push_number(&mut text, (*value).into(), self.width, format);
         }
         text
     }

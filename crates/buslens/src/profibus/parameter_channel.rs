@@ -167,7 +167,7 @@ impl Channel {
     /// The first 8 of `bytes`; those that are missing count as 0.
     pub fn read(bytes: &[u8], direction: Direction, settings: &Settings) -> Self {
         let mut channel = Self::new(direction, settings);
-        walk::read(&mut channel, bytes.get(..LENGTH).unwrap_or(bytes));
+        walk::fill(&mut channel, bytes.get(..LENGTH).unwrap_or(bytes));
         channel
     }
 
@@ -225,7 +225,7 @@ impl Channel {
     /// The confirmation `self` as the answer to `request`, which tells how much was written.
     pub fn answering(&self, request: &Self) -> Self {
         let mut answer = Self { request_length: request.length(), ..self.clone() };
-        walk::read(&mut answer, &self.bytes());
+        walk::fill(&mut answer, &self.bytes());
         answer
     }
 

@@ -71,10 +71,9 @@ impl UserData {
 
     /// "0400h, 05DCh", or nothing.
     fn listed(&self) -> Option<String> {
-        let mut values: Vec<String> = self.words.iter().map(|word| hex_value(u64::from(*word), 2)).collect();
-        if !self.size.is_multiple_of(2) {
-            values.push(hex_value(self.odd.into(), 1));
-        }
+        let odd = (!self.size.is_multiple_of(2)).then(|| hex_value(self.odd.into(), 1));
+        let words = self.words.iter().map(|word| hex_value((*word).into(), 2));
+        let values: Vec<String> = words.chain(odd).map(|value| value.to_string()).collect();
         (!values.is_empty()).then(|| values.join(", "))
     }
 }

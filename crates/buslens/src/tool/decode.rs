@@ -285,7 +285,7 @@ impl Report {
         let telegram = &self.telegrams[index];
         if let Some(request) = telegram.answers {
             let mut asked = self.expected(request);
-            walk::read(asked.as_mut(), &self.telegrams[request].line.bytes);
+            walk::fill(asked.as_mut(), &self.telegrams[request].line.bytes);
             frame.answer(&asked.content());
         }
         let reading = walk::read(frame.as_mut(), &telegram.line.bytes);

@@ -1,3 +1,5 @@
+use std::borrow::Cow;
+
 use super::blocks::{BlockReading, blocks};
 use super::decode::Report;
 use crate::device::{self, PROFILES, Process, Profile, Registers, Said};
@@ -69,12 +71,12 @@ impl Detail {
     }
 
     /// The telegram in one sentence, with what its check makes of it.
-    pub fn meaning(&self) -> Message {
-        match self.verdict {
-            Verdict::Right | Verdict::NoCheck => self.said.clone(),
+    pub fn meaning(&self) -> Cow<'_, Message> {
+        Cow::Owned(match self.verdict {
+            Verdict::Right | Verdict::NoCheck => return Cow::Borrowed(&self.said),
             Verdict::Wrong => message!("{said}, but the checksum is wrong", said = self.said.clone()),
             Verdict::Unchecked => message!("the beginning of a telegram: too short to say what it means"),
-        }
+        })
     }
 
     /// The problems of all fields, in their order, and then those that the device would have.
@@ -87,13 +89,13 @@ impl Detail {
 
     /// Whether a field of this label has this value.
     pub(super) fn fields_hold(&self, label: &str, value: Option<u64>) -> bool {
-        let of = |leaf: &&Field| leaf.spec.label == label && leaf.value.raw() == value;
-        value.is_some() && field::leaves(&self.fields).iter().any(of)
+        let of = |field: &Field| field.spec.label == label && field.value.raw() == value;
+        value.is_some() && field::find(&self.fields, &mut |field| of(field).then_some(())).is_some()
     }
 
     /// The check bytes, where the telegram is long enough to have some.
     pub fn check(&self) -> Option<Check> {
-        field::leaves(&self.fields).into_iter().find_map(|leaf| match leaf.value {
+        field::find(&self.fields, &mut |field| match field.value {
             Value::Check(check) => Some(check),
             _ => None,
         })
@@ -545,20 +547,13 @@ fn small(label: Message) -> String {
 
 /// Where the first field of such a spec stands.
 fn place(fields: &[Field], wanted: impl Fn(&'static Spec) -> bool) -> Option<Span> {
-    let mut span = None;
-    for field in fields {
-        field.visit(&mut |field| {
-            if wanted(field.spec) {
-                span = span.or(Some(field.span));
-            }
-        });
-    }
-    span
+    field::find(fields, &mut |field| wanted(field.spec).then_some(field.span))
 }
 
 /// Whether the function code was read.
 fn has_function(fields: &[Field]) -> bool {
-    field::leaves(fields).iter().any(|leaf| matches!(leaf.value, Value::Selector { .. }))
+    let chosen = |field: &Field| matches!(field.value, Value::Selector { .. }).then_some(());
+    field::find(fields, &mut |field| chosen(field)).is_some()
 }
 
 /// The values of registers as bytes, high byte first: those of the telegram, which has `length` of them.

@@ -49,12 +49,12 @@ impl Report {
     /// does; then by how often such a thing happens and in how many ways it could have. Empty where
     /// the check is right, or where there is none.
     pub fn explanations(&self, index: usize) -> Vec<Explanation> {
-        let Some(telegram) = self.telegrams.get(index) else { return Vec::new() };
+        let telegram = self.telegrams.get(index).filter(|telegram| telegram.verdict != Verdict::Right);
+        let Some(telegram) = telegram else { return Vec::new() };
         let printed = misprint(&telegram.line.bytes);
         if telegram.verdict != Verdict::Wrong {
             // A misprint may look like a telegram whose end is missing.
-            let cut = printed.filter(|_| telegram.verdict != Verdict::Right);
-            return cut.map(|printed| self.explain(index, printed, None)).into_iter().collect();
+            return printed.map(|printed| self.explain(index, printed, None)).into_iter().collect();
         }
         let bytes_of = |index: usize| self.telegrams[index].line.bytes.as_slice();
         let before = telegram.answers.or(index.checked_sub(1)).map(bytes_of);

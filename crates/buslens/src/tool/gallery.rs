@@ -140,12 +140,8 @@ impl Sample {
             (Some((what, right)), _) => Some(Slip { what: what.clone(), right: text::bytes(right) }),
             (None, known) => known.map(|it| Slip { what: it.slips.to_owned(), right: it.right.to_vec() }),
         };
-        let said = match &misprint {
-            Some(slip) => {
-                self.read(&hex(&slip.right)).map_or_else(|| detail.meaning(), |(_, right)| right.meaning())
-            }
-            None => detail.meaning(),
-        };
+        let right = misprint.as_ref().and_then(|slip| self.read(&hex(&slip.right)));
+        let said = right.as_ref().map_or(&detail, |(_, right)| right).meaning();
         let kind = match detail.function {
             // "Read holding registers, function 3": the function is said by itself.
             Some(_) => detail.kind.to_string().split(", function").next().unwrap_or_default().to_owned(),

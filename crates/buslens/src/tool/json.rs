@@ -1,366 +1,236 @@
-//! Telegrams as JSON Lines: one object for each telegram, then one summary.
+//! Telegrams as JSON Lines: one object for each telegram, then one summary. Keys that do not apply are left out.
+//!
+//! | key | value |
+//! | --- | --- |
+//! | `n` | running number from 1 |
+//! | `line`, `offset` | first line of the text, from 1; or where it begins in a stream, which has no lines |
+//! | `length`, `bytes` | how many bytes it has, and they themselves |
+//! | `time` | when it was sent, as its log says |
+//! | `protocol` | the key of its protocol |
+//! | `direction` | `request`, `response` or `unknown` |
+//! | `unit`, `function`, `exception` | numbers, the function without the bit of an exception |
+//! | `check` | `kind`, `ok`, `found` and `computed`; not of telegrams without one |
+//! | `state` | how it went: `ok`, `slow`, `late`, `unanswered`, `rejected`, `damaged` and so on |
+//! | `start`, `count`, `values` | registers as numbers, coils as `true` and `false` |
+//! | `index`, `subindex`, `handshake`, `service`, `error` | the parameter channel; the service is `none`, `read`, `write` or `both`, the error why a slave did not do a job: `class`, `code` and `additional` |
+//! | `job` | the job of the parameter channel that it belongs to: its `number` and its `state`, which is `asked`, `running`, `done` or `failed` |
+//! | `meaning` | a sentence |
+//! | `device` | what the device's manual says about its registers or its parameter, see below |
+//! | `pair` | the number of the request that it answers, or of its response |
+//! | `latency_ms` | from the request to the response |
+//! | `problems` | each with `code`, `text` and `span`; those of the text that it was written in have no span |
+//! | `comment` | what a person noted on it |
+//! | `hypotheses` | possible causes where the check is wrong, best first: `code`, `text`, `bytes` and `odds` |
+//! | `fields` | if asked for: the tree of its fields, each with `key`, `label`, `span`, `value`, `text` and `fields` |
+//!
+//! A block of registers, or a parameter, has a `name`, a `value` (a number where it is one, or text), its `unit` and
+//! `status`, the addresses that the telegram has of it as `register` (`215 to 217`), a `note`, the parameter that its
+//! value `stands_for`, and as `facts` what the manual says of it whatever its value.
 
-use serde::Serialize;
+mod write;
 
-use super::{Detail, Explanation, Report, Telegram, Verdict};
+use super::{Detail, Explanation, Report, Verdict};
 use crate::device::Block;
-use crate::field::{Direction, Field, Message, hex};
-use crate::profibus;
-
-/// One telegram. Keys that do not apply are left out.
-#[derive(Debug, Serialize)]
-pub struct Row {
-    /// Running number from 1.
-    pub n: usize,
-    /// First line of the text, from 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub line: Option<usize>,
-    /// Where it begins in a stream that has no lines.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub offset: Option<usize>,
-    pub length: usize,
-    /// When it was sent, as its log says.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub time: Option<String>,
-    pub protocol: &'static str,
-    /// `request`, `response` or `unknown`.
-    pub direction: &'static str,
-    pub bytes: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub unit: Option<u8>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub function: Option<u8>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub exception: Option<u8>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub check: Option<Check>,
-    /// How it went: `ok`, `slow`, `late`, `unanswered`, `rejected`, `damaged` and so on.
-    pub state: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub start: Option<u16>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub count: Option<usize>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub values: Vec<RawValue>,
-    #[serde(flatten, skip_serializing_if = "Option::is_none")]
-    pub channel: Option<Channel>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub job: Option<Job>,
-    pub meaning: String,
-    /// What the device's manual says about the registers.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub device: Vec<Known>,
-    /// The number of the request that this answers, or of its response.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub pair: Option<usize>,
-    /// From the request to the response.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub latency_ms: Option<f64>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub problems: Vec<Problem>,
-    /// What a person noted on it.
-    #[serde(skip_serializing_if = "str::is_empty")]
-    pub comment: String,
-    /// Possible causes where the check failed, best first.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub hypotheses: Vec<Hypothesis>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub fields: Option<Vec<Node>>,
-}
-
-/// The parameter channel.
-#[derive(Debug, Serialize)]
-pub struct Channel {
-    pub index: u16,
-    pub subindex: u8,
-    pub handshake: u8,
-    /// `none`, `read`, `write` or `both`.
-    pub service: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub error: Option<Refusal>,
-}
-
-/// Why a slave did not do a job.
-#[derive(Debug, Serialize)]
-pub struct Refusal {
-    pub class: u8,
-    pub code: u8,
-    pub additional: u16,
-}
-
-/// The job of the parameter channel that a telegram belongs to.
-#[derive(Debug, Serialize)]
-pub struct Job {
-    pub number: usize,
-    /// `asked`, `running`, `done` or `failed`.
-    pub state: &'static str,
-}
-
-/// A register's number, or a coil's state.
-#[derive(Debug, Serialize)]
-#[serde(untagged)]
-pub enum RawValue {
-    Number(u32),
-    Coil(bool),
-}
-
-/// A value as a number, where it is one, or as text.
-#[derive(Debug, Serialize)]
-#[serde(untagged)]
-pub enum Shown {
-    Whole(i64),
-    Number(f64),
-    Text(String),
-}
-
-/// A block of registers, or a parameter.
-#[derive(Debug, Serialize)]
-pub struct Known {
-    pub name: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub value: Option<Shown>,
-    #[serde(skip_serializing_if = "str::is_empty")]
-    pub unit: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub status: Option<String>,
-    /// The addresses that the telegram has of it: `215 to 217`.
-    pub register: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub note: Option<String>,
-    /// The parameter that the value stands for.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stands_for: Option<String>,
-    /// What the manual says of it whatever its value: other addresses, software versions.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub facts: Vec<String>,
-}
-
-#[derive(Debug, Serialize)]
-pub struct Check {
-    pub kind: &'static str,
-    pub ok: bool,
-    pub found: String,
-    pub computed: String,
-}
-
-/// A problem of the telegram, or (without a span) of the text it was written in.
-#[derive(Debug, Serialize)]
-pub struct Problem {
-    pub code: &'static str,
-    pub text: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub span: Option<[usize; 2]>,
-}
-
-#[derive(Debug, Serialize)]
-pub struct Hypothesis {
-    pub code: &'static str,
-    pub text: String,
-    pub bytes: String,
-    pub odds: String,
-}
-
-/// A field with those within it.
-#[derive(Debug, Serialize)]
-pub struct Node {
-    pub key: &'static str,
-    pub label: String,
-    pub span: [usize; 2],
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub value: Option<u64>,
-    #[serde(skip_serializing_if = "String::is_empty")]
-    pub text: String,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub fields: Vec<Node>,
-}
-
-/// The last object.
-#[derive(Debug, Serialize)]
-pub struct Last {
-    pub summary: Summary,
-}
-
-#[derive(Debug, Serialize)]
-pub struct Summary {
-    pub telegrams: usize,
-    pub check_failed: usize,
-    pub pairs: usize,
-    pub unanswered: usize,
-    pub unpaired: usize,
-    pub lines: usize,
-    pub lines_not_understood: usize,
-    pub bytes_discarded: usize,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub layout: Option<&'static str>,
-}
+use crate::field::{Bits, Check, Direction, Field, Span};
+use crate::profibus::{self, jobs::Step};
+use write::{Json, Object};
 
 /// The whole report, a line for each telegram and one for the summary, each with its line end.
-pub fn lines(report: &Report, fields: bool) -> serde_json::Result<String> {
+pub fn lines(report: &Report, fields: bool) -> String {
     let mut text = String::new();
     for index in 0..report.telegrams.len() {
-        text += &line(report, index, fields)?;
+        push_line(&mut text, report, index, fields);
         text.push('\n');
     }
-    text += &serde_json::to_string(&last(report))?;
+    Object::write(&mut text, |last| last.object("summary", |object| write_summary(object, report)));
     text.push('\n');
-    Ok(text)
+    text
 }
 
 /// Telegram `index`, in a line without its end; nothing if there is none.
-pub fn line(report: &Report, index: usize, fields: bool) -> serde_json::Result<String> {
-    let (Some(telegram), Some(detail)) = (report.telegrams.get(index), report.detail(index)) else {
-        return Ok(String::new());
-    };
-    let pair = telegram.answers.or(telegram.answered_by).and_then(|pair| report.telegrams.get(pair));
-    let mut row = row(telegram, pair, detail, report.state(index).key(), fields);
-    let explained = report.explanations(index).into_iter();
-    row.hypotheses = explained.map(|one| hypothesis(one, &telegram.line.bytes)).collect();
-    serde_json::to_string(&row)
+pub fn line(report: &Report, index: usize, fields: bool) -> String {
+    let mut text = String::new();
+    push_line(&mut text, report, index, fields);
+    text
 }
 
-fn row(
-    telegram: &Telegram,
-    pair: Option<&Telegram>,
-    detail: Detail,
-    state: &'static str,
-    fields: bool,
-) -> Row {
+/// The same behind what `text` holds.
+pub fn push_line(text: &mut String, report: &Report, index: usize, fields: bool) {
+    if let Some(detail) = report.detail(index) {
+        Object::write(text, |row| write_telegram(row, report, index, &detail, fields));
+    }
+}
+
+fn write_telegram(row: &mut Object<'_>, report: &Report, index: usize, detail: &Detail, fields: bool) {
+    let telegram = &report.telegrams[index];
     let line = &telegram.line;
-    let problems = detail.problems().into_iter().map(|problem| Problem {
-        code: problem.code,
-        text: problem.message.sentence(),
-        span: Some([problem.span.from, problem.span.to]),
+    row.put("n", telegram.number);
+    row.put("line", (line.number > 0).then_some(line.number));
+    row.put("offset", (line.number == 0).then_some(line.span.from));
+    row.put("length", line.bytes.len());
+    row.put("time", telegram.time.as_deref());
+    row.put("protocol", telegram.choice.protocol.key);
+    row.put("direction", telegram.guess.told().map_or("unknown", Direction::key));
+    row.put("bytes", line.bytes.as_slice());
+    row.put("unit", detail.unit);
+    row.put("function", detail.function);
+    row.put("exception", detail.exception);
+    if let (Some(check), Verdict::Right | Verdict::Wrong) = (detail.check(), telegram.verdict) {
+        row.object("check", |object| write_check(object, &check));
+    }
+    row.put("state", report.state(index).key());
+    row.put("start", detail.start);
+    row.put("count", detail.count);
+    row.list_if_any("values", &detail.values, |text, value| match detail.coils {
+        true => (*value != 0).write(text),
+        false => value.write(text),
     });
-    let remarks = line.remarks.iter().map(|remark| Problem {
-        code: remark.code,
-        text: remark.message.sentence(),
-        span: None,
+    if let Some(channel) = &detail.channel {
+        write_channel(row, channel);
+    }
+    if let Some(Step { job, state, .. }) = &detail.step {
+        row.object("job", |object| {
+            object.put("number", *job);
+            object.put("state", state.key());
+        });
+    }
+    row.text("meaning", |text| {
+        detail.meaning().push_sentence(text);
+        text.push('.');
     });
-    Row {
-        n: telegram.number,
-        line: (line.number > 0).then_some(line.number),
-        offset: (line.number == 0).then_some(line.span.from),
-        time: telegram.time.clone(),
-        latency_ms: telegram.latency.map(|micros| f64::from(micros) / 1000.0),
-        length: line.bytes.len(),
-        protocol: telegram.choice.protocol.key,
-        direction: telegram.guess.told().map_or("unknown", Direction::key),
-        bytes: hex(&line.bytes),
-        unit: detail.unit,
-        function: detail.function,
-        exception: detail.exception,
-        check: detail.check().filter(|_| matches!(telegram.verdict, Verdict::Right | Verdict::Wrong)).map(
-            |check| Check {
-                kind: check.kind,
-                ok: check.ok(),
-                found: check.found_bytes(),
-                computed: check.computed_bytes(),
-            },
-        ),
-        state,
-        start: detail.start,
-        count: detail.count,
-        meaning: detail.meaning().sentence() + ".",
-        pair: pair.map(|pair| pair.number),
-        problems: problems.chain(remarks).collect(),
-        comment: telegram.comment.clone(),
-        hypotheses: Vec::new(),
-        fields: fields.then(|| detail.fields.iter().map(node).collect()),
-        channel: detail.channel.as_ref().map(channel),
-        job: detail.step.as_ref().map(|step| Job { number: step.job, state: step.state.key() }),
-        values: detail.values.iter().map(|value| raw(*value, detail.coils)).collect(),
-        device: detail.device.blocks.iter().map(known).collect(),
+    row.list_if_any("device", &detail.device.blocks, |text, block| {
+        Object::write(text, |object| write_block(object, block));
+    });
+    let pair = telegram.answers.or(telegram.answered_by).and_then(|pair| report.telegrams.get(pair));
+    row.put("pair", pair.map(|pair| pair.number));
+    row.put("latency_ms", telegram.latency.map(|micros| f64::from(micros) / 1000.0));
+    let problems = detail.problems().into_iter().map(|it| (it.code, &it.message, Some(it.span)));
+    let remarks = line.remarks.iter().map(|it| (it.code, &it.message, None));
+    row.list_if_any("problems", problems.chain(remarks), |text, (code, message, span)| {
+        Object::write(text, |object| {
+            object.put("code", code);
+            object.text("text", |text| message.push_sentence(text));
+            object.put("span", span);
+        });
+    });
+    row.text_if_any("comment", |text| text.push_str(&telegram.comment));
+    row.list_if_any("hypotheses", report.explanations(index), |text, explanation| {
+        Object::write(text, |object| write_hypothesis(object, &explanation, &line.bytes));
+    });
+    if fields {
+        row.list("fields", &detail.fields, write_field);
     }
 }
 
-fn hypothesis(explanation: Explanation, found: &[u8]) -> Hypothesis {
-    let hypothesis = explanation.hypothesis;
-    Hypothesis {
-        code: hypothesis.cause.key(),
-        text: hypothesis.text(found).sentence(),
-        odds: hypothesis.odds().to_string(),
-        bytes: hex(&hypothesis.bytes),
+fn write_check(object: &mut Object<'_>, check: &Check) {
+    object.put("kind", check.kind);
+    object.put("ok", check.ok());
+    for (key, bytes) in [("found", check.found), ("computed", check.computed)] {
+        object.put(key, &bytes.to_be_bytes()[8 - check.width..]);
     }
 }
 
-fn channel(channel: &profibus::Channel) -> Channel {
-    Channel {
-        index: channel.index,
-        subindex: channel.subindex,
-        handshake: channel.handshake(),
-        service: channel.service().key(),
-        error: channel.refusal().map(|refusal| Refusal {
-            class: refusal.class,
-            code: refusal.code,
-            additional: refusal.additional,
-        }),
+fn write_channel(row: &mut Object<'_>, channel: &profibus::Channel) {
+    row.put("index", channel.index);
+    row.put("subindex", channel.subindex);
+    row.put("handshake", channel.handshake());
+    row.put("service", channel.service().key());
+    if let Some(refusal) = channel.refusal() {
+        row.object("error", |object| {
+            object.put("class", refusal.class);
+            object.put("code", refusal.code);
+            object.put("additional", refusal.additional);
+        });
     }
 }
 
-fn raw(value: u32, coil: bool) -> RawValue {
-    if coil { RawValue::Coil(value != 0) } else { RawValue::Number(value) }
+fn write_block(object: &mut Object<'_>, block: &Block) {
+    object.put("name", &block.label());
+    if let Some(value) = block.value() {
+        write_value(object, &value.to_string());
+    }
+    object.text_if_any("unit", |text| text.push_str(block.field.spec.unit));
+    object.put("status", block.status().as_ref());
+    object.put("register", block.registers().as_str());
+    object.put("note", block.note.as_ref());
+    object.put("stands_for", block.stands_for.as_ref());
+    object.list_if_any("facts", &block.facts, |text, fact| fact.write(text));
 }
 
-fn shown(text: String) -> Shown {
-    let plain = text.replace('\u{2212}', "-");
+/// A value as a number, where it is one, or as text.
+fn write_value(object: &mut Object<'_>, value: &str) {
+    let plain = value.replace('\u{2212}', "-");
     let number = || lexical_core::parse::<f64>(plain.as_bytes()).ok().filter(|number| number.is_finite());
-    match (plain.parse(), number()) {
-        (Ok(whole), _) => Shown::Whole(whole),
-        (_, Some(number)) => Shown::Number(number),
-        _ => Shown::Text(text),
+    match (plain.parse::<i64>(), number()) {
+        (Ok(whole), _) => object.put("value", whole),
+        (_, Some(number)) => object.put("value", number),
+        _ => object.put("value", value),
     }
 }
 
-fn known(block: &Block) -> Known {
-    let text = |message: Message| message.to_string();
-    Known {
-        name: text(block.label()),
-        value: block.value().map(|value| shown(text(value))),
-        unit: block.field.spec.unit,
-        status: block.status().map(text),
-        register: block.registers(),
-        note: block.note.clone().map(text),
-        stands_for: block.stands_for.clone().map(text),
-        facts: block.facts.iter().map(Message::to_string).collect(),
-    }
+fn write_hypothesis(object: &mut Object<'_>, explanation: &Explanation, found: &[u8]) {
+    let hypothesis = &explanation.hypothesis;
+    object.put("code", hypothesis.cause.key());
+    object.text("text", |text| hypothesis.text(found).push_sentence(text));
+    object.put("bytes", hypothesis.bytes.as_slice());
+    object.put("odds", &hypothesis.odds());
 }
 
-fn node(field: &Field) -> Node {
-    let meaning = field.meaning().map(|meaning| meaning.to_string());
-    let texts = [Some(field.value_text()), meaning];
-    let text: Vec<String> = texts.into_iter().flatten().filter(|part| !part.is_empty()).collect();
-    let span = [field.span.from, field.span.to];
-    let parts = field.parts().map(|(part, value)| Node {
-        key: part.key,
-        label: part.label.to_owned(),
-        span,
-        value: Some(value),
-        text: part.name(value).map_or(String::new(), |name| name.label.to_owned()),
-        fields: Vec::new(),
+/// A field with those within it, and with the parts of its number whose bits say something.
+fn write_field(text: &mut String, field: &Field) {
+    Object::write(text, |object| {
+        object.put("key", field.spec.key);
+        object.put("label", &field.label());
+        object.put("span", field.span);
+        object.put("value", field.value.raw());
+        object.text_if_any("text", |text| {
+            let from = text.len();
+            field.push_value(text);
+            let between = text.len();
+            if let Some(meaning) = field.meaning() {
+                text.push_str(if between > from { ": " } else { "" });
+                let before = text.len();
+                meaning.push_to(text);
+                if text.len() == before {
+                    text.truncate(between);
+                }
+            }
+        });
+        let parts = field.parts().map(Below::Part);
+        object.list_if_any("fields", parts.chain(field.children.iter().map(Below::Field)), |text, below| {
+            match below {
+                Below::Part((part, value)) => write_part(text, part, value, field.span),
+                Below::Field(field) => write_field(text, field),
+            }
+        });
     });
-    Node {
-        key: field.spec.key,
-        label: field.label().to_string(),
-        span,
-        value: field.value.raw(),
-        text: text.join(": "),
-        fields: parts.chain(field.children.iter().map(node)).collect(),
-    }
 }
 
-fn last(report: &Report) -> Last {
+/// What is within a field.
+enum Below<'a> {
+    Part((&'static Bits, u64)),
+    Field(&'a Field),
+}
+
+fn write_part(text: &mut String, part: &'static Bits, value: u64, span: Span) {
+    Object::write(text, |object| {
+        object.put("key", part.key);
+        object.put("label", part.label);
+        object.put("span", span);
+        object.put("value", value);
+        object.text_if_any("text", |text| text.push_str(part.name(value).map_or("", |name| name.label)));
+    });
+}
+
+fn write_summary(object: &mut Object<'_>, report: &Report) {
     let summary = report.summary();
-    Last {
-        summary: Summary {
-            telegrams: summary.telegrams,
-            check_failed: summary.check_failed,
-            pairs: summary.pairs,
-            unanswered: summary.unanswered,
-            unpaired: summary.unpaired,
-            lines: summary.lines,
-            lines_not_understood: summary.lines_not_understood,
-            bytes_discarded: summary.bytes_discarded,
-            layout: summary.layout,
-        },
-    }
+    object.put("telegrams", summary.telegrams);
+    object.put("check_failed", summary.check_failed);
+    object.put("pairs", summary.pairs);
+    object.put("unanswered", summary.unanswered);
+    object.put("unpaired", summary.unpaired);
+    object.put("lines", summary.lines);
+    object.put("lines_not_understood", summary.lines_not_understood);
+    object.put("bytes_discarded", summary.bytes_discarded);
+    object.put("layout", summary.layout);
 }

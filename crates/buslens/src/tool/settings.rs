@@ -78,7 +78,7 @@ pub fn to_bytes(settings: &Settings) -> Vec<u8> {
 /// The settings that [`to_bytes`] wrote; what the bytes do not tell is the factory setting.
 pub fn from_bytes(bytes: &[u8]) -> Settings {
     let mut settings = Settings::default();
-    walk::read(&mut settings, bytes);
+    walk::fill(&mut settings, bytes);
     settings
 }
 

@@ -1,6 +1,6 @@
 //! Registers seen in every usual way: as numbers of 16, 32 and 64 bits, floats, bits, characters.
 
-use crate::field::{Format, Order, escaped, hex_value, number_text};
+use crate::field::{Format, Order, escaped, number_text};
 
 /// One way to see one or several registers.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -93,7 +93,7 @@ fn text(kind: Kind, raw: u64, bytes: &[u8]) -> String {
         Kind::Unsigned => raw.to_string(),
         Kind::Signed => number_text(raw, width, Format::Signed),
         Kind::Float => number_text(raw, width, Format::Float),
-        Kind::Hex => hex_value(raw, width),
+        Kind::Hex => number_text(raw, width, Format::Hex),
         Kind::Characters => escaped(bytes),
         Kind::Bits => {
             let nibbles: Vec<String> =

@@ -2,8 +2,8 @@
 
 use super::{Algorithm, Deviation, Deviations, Items, Part, Path, Telegram, WINDOW, Walk, Walker};
 use crate::field::{
-    Argument, Format, Message, Numbering, Order, Role, Spec, escaped, hex, hex_value, number_text,
-    parse_float, unescaped,
+    Argument, Format, Message, Numbering, Order, Role, Spec, escaped, hex, number_text, parse_float,
+    unescaped,
 };
 use crate::message;
 
@@ -298,7 +298,7 @@ impl Show<'_> {
         // A check is known by its bytes, a count by its number.
         let text = self.deviations.value(&path).map_or(String::new(), |raw| match spec.role {
             Role::Check => hex(&raw.to_be_bytes()[8 - width..]),
-            _ => hex_value(raw, width),
+            _ => number_text(raw, width, Format::Hex),
         });
         let computed = self.computed.value(&path).unwrap_or(0);
         self.entry(spec, Content::Computed { width, computed, text });

@@ -4,7 +4,7 @@
 //!
 //! | walker | product |
 //! | --- | --- |
-//! | [`read()`] | bytes into the value, and the tree of fields with their spans |
+//! | [`read()`] | bytes into the value, and the tree of fields with their spans; [`fill`] without the tree |
 //! | [`write()`] | the value into bytes |
 //! | [`mod@form`] | the value into entries that a person can edit, and back |
 //! | [`mod@guide`] | the reference: what stands where, with limits and notes |
@@ -23,11 +23,11 @@ mod write;
 
 pub use checksum::{Algorithm, CRC_16_MODBUS, FCS, LRC, crc_residue, crc_step};
 pub use deviation::{Deviation, Deviations};
-pub use read::{Reading, UNEXPECTED, read};
+pub use read::{Reading, UNEXPECTED, fill, read};
 pub use sample::sample;
 pub use write::{Overflow, overflow, write};
 
-use crate::field::{Message, Severity, Spec};
+use crate::field::{Message, Severity, Spec, push_digits};
 
 /// A telegram, or a part of one, described by its fields in order.
 pub trait Telegram {
@@ -211,22 +211,30 @@ struct Path(String);
 
 impl Path {
     fn join(&self, key: &str) -> String {
-        if self.0.is_empty() { key.to_owned() } else { format!("{}.{key}", self.0) }
+        if self.0.is_empty() { key.to_owned() } else { [&self.0, ".", key].concat() }
     }
 
     /// Goes one level down; [`leave`](Self::leave) takes what this returns.
     fn enter(&mut self, key: &str) -> usize {
-        let length = self.0.len();
-        if length > 0 {
-            self.0.push('.');
-        }
+        let length = self.part();
         self.0.push_str(key);
         length
     }
 
     /// Goes to the list's item `index`; [`leave`](Self::leave) takes what this returns.
     fn enter_item(&mut self, index: usize) -> usize {
-        self.enter(&index.to_string())
+        let length = self.part();
+        push_digits(&mut self.0, index as u64, 1);
+        length
+    }
+
+    /// Puts what parts the next key from those before it; how long the path was.
+    fn part(&mut self) -> usize {
+        let length = self.0.len();
+        if length > 0 {
+            self.0.push('.');
+        }
+        length
     }
 
     fn leave(&mut self, length: usize) {

@@ -12,17 +12,15 @@ use crate::message;
 /// Never fails. Each byte is in exactly one leaf of the tree; what no field claims is in a leaf
 /// [`UNEXPECTED`], and what is missing is a [`Value::Missing`] and a problem.
 pub fn read(telegram: &mut dyn Telegram, bytes: &[u8]) -> Reading {
-    let mut reader = Reader {
-        bytes,
-        position: 0,
-        end: bytes.len(),
-        fields: Vec::new(),
-        path: Path::default(),
-        wire: Deviations::default(),
-    };
-    let walk = telegram.walk(&mut reader);
-    reader.close_window(walk, 0, String::new());
-    Reading { fields: reader.fields, wire: reader.wire }
+    /// Hardly a telegram has more fields beside each other, but for lists.
+    const USUAL: usize = 6;
+    let reader = Reader { keeps: true, fields: Vec::with_capacity(USUAL), ..Reader::new(bytes) };
+    reader.read(telegram)
+}
+
+/// Reads `bytes` into `telegram` in the same way, and keeps nothing besides.
+pub fn fill(telegram: &mut dyn Telegram, bytes: &[u8]) {
+    Reader::new(bytes).read(telegram);
 }
 
 /// What reading a telegram gave, besides the value.
@@ -53,6 +51,8 @@ pub static UNEXPECTED: Spec = Spec::new("unexpected", "Unexpected bytes")
 
 struct Reader<'a> {
     bytes: &'a [u8],
+    /// Fields and deviations are wanted.
+    keeps: bool,
     position: usize,
     /// Where the present window ends.
     end: usize,
@@ -63,23 +63,55 @@ struct Reader<'a> {
     wire: Deviations,
 }
 
-impl Reader<'_> {
+impl<'a> Reader<'a> {
+    fn new(bytes: &'a [u8]) -> Self {
+        Self {
+            bytes,
+            keeps: false,
+            position: 0,
+            end: bytes.len(),
+            fields: Vec::new(),
+            path: Path::default(),
+            wire: Deviations::default(),
+        }
+    }
+
+    fn read(mut self, telegram: &mut dyn Telegram) -> Reading {
+        let walk = telegram.walk(&mut self);
+        self.close_window(walk, 0, "");
+        Reading { fields: self.fields, wire: self.wire }
+    }
+
+    fn keep(&mut self, field: Field) {
+        if self.keeps {
+            self.fields.push(field);
+        }
+    }
+
+    /// Notes what is on the wire for the `key` of the present level.
+    fn note(&mut self, key: &str, deviation: Deviation) {
+        if self.keeps {
+            self.wire.set(self.path.join(key), deviation);
+        }
+    }
+
     /// Takes a number; if its bytes are not all there, leaves a missing field and stops.
     fn take(&mut self, spec: &'static Spec, width: usize, raw: &mut u64) -> Walk {
         let from = self.position;
         let found = width.min(self.end - from);
         self.position = from + found;
         let span = Span::new(from, self.position);
-        // Absent bytes count as zero, so that writing and cutting gives the same bytes.
-        let mut there = span.of(self.bytes).to_vec();
-        there.resize(width, 0);
-        *raw = spec.order.number(&there);
-        let value =
-            if found == width { Value::Number { raw: *raw, width } } else { Value::Missing { width, found } };
-        self.fields.push(Field::new(spec, span, value));
+        let there = span.of(self.bytes);
         if found == width {
+            *raw = spec.order.number(there);
+            self.keep(Field::new(spec, span, Value::Number { raw: *raw, width }));
             return Ok(());
         }
+        // Absent bytes count as zero, so that writing and cutting gives the same bytes.
+        let mut bytes = there.to_vec();
+        bytes.resize(width, 0);
+        *raw = spec.order.number(&bytes);
+        self.keep(Field::new(spec, span, Value::Missing { width, found }));
         self.cut_off(spec, width, found);
         Err(Stop)
     }
@@ -166,7 +198,7 @@ impl Reader<'_> {
     fn take_computed(&mut self, spec: &'static Spec, width: usize) -> Walk<u64> {
         let mut raw = 0;
         let walk = self.take(spec, width, &mut raw);
-        self.wire.set(self.path.join(spec.key), Deviation::Value(raw));
+        self.note(spec.key, Deviation::Value(raw));
         walk.map(|()| raw)
     }
 
@@ -180,12 +212,12 @@ impl Reader<'_> {
         let children = std::mem::replace(&mut self.fields, outer);
         let mut field = Field::new(spec, Span::new(from, self.position), Value::Group);
         field.children = children;
-        self.fields.push(field);
+        self.keep(field);
         walk
     }
 
-    /// Ends a window that began at `from`: what is left in it becomes an unexpected field.
-    fn close_window(&mut self, walk: Walk, from: usize, path: String) {
+    /// Ends the window of this `key` that began at `from`: what is left in it becomes an unexpected field.
+    fn close_window(&mut self, walk: Walk, from: usize, key: &str) {
         let left = Span::new(self.position, self.end);
         if !left.is_empty() {
             self.position = self.end;
@@ -195,10 +227,10 @@ impl Reader<'_> {
                 left,
                 message!("{bytes} too many", bytes = Message::bytes(left.len())),
             ));
-            self.fields.push(field);
-            self.wire.set(path, Deviation::Extra(left.of(self.bytes).to_vec()));
+            self.keep(field);
+            self.note(key, Deviation::Extra(left.of(self.bytes).to_vec()));
         } else if walk.is_err() {
-            self.wire.set(path, Deviation::Cut(self.end - from));
+            self.note(key, Deviation::Cut(self.end - from));
         }
     }
 }
@@ -267,7 +299,7 @@ impl Walker for Reader<'_> {
                 Format::Text => Value::Text(escaped(bytes)),
                 _ => Value::Bytes,
             };
-            self.fields.push(Field::new(spec, span, value));
+            self.keep(Field::new(spec, span, value));
         }
         if wanted > left {
             self.cut_off(spec, wanted, left);
@@ -287,6 +319,9 @@ impl Walker for Reader<'_> {
         let walk = self.group(spec, |reader| {
             // Grows with the bytes that are there, not with what is announced.
             items.resize(0);
+            if reader.keeps {
+                reader.fields.reserve(count.unwrap_or_default().min(reader.end - reader.position));
+            }
             let more = |there, left: bool| match count {
                 Some(count) => there < count && left,
                 None => there == 0 || left,
@@ -329,8 +364,7 @@ impl Walker for Reader<'_> {
             self.end = outer - keep;
         }
         let walk = part(self);
-        let path = self.path.join(WINDOW);
-        self.close_window(walk, from, path);
+        self.close_window(walk, from, WINDOW);
         self.end = outer;
         Ok(())
     }

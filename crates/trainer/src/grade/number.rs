@@ -166,9 +166,9 @@ fn wrong(wanted: &Number, given: Option<u64>) -> Verdict {
             message!("the sign is the other one")
         }
         (None, Some(given)) if wanted.spec.is_none() && wanted.role == Role::Data => {
-            let shown = match wanted.notation {
-                Notation::Hex => buslens::field::hex_value(given, wanted.width),
-                _ => given.to_string(),
+            let shown: Argument = match wanted.notation {
+                Notation::Hex => buslens::field::hex_value(given, wanted.width).into(),
+                _ => given.into(),
             };
             match given < wanted.raw {
                 true => message!("{given} is too low", given = shown),

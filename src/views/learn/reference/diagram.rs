@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 
 use crate::components::byte_strip::role_class;
-use buslens::field::{Message, Order, Role, Spec, hex, hex_value, in_order};
+use buslens::field::{Format, Message, Order, Role, Spec, hex, in_order, number_text};
 use buslens::tool::{Row, Size};
 
 /// A field, or a group or list of them.
@@ -129,7 +129,11 @@ pub fn BitDiagram(spec: &'static Spec) -> impl IntoView {
         let place = if from == last { format!("bit {from}") } else { format!("bits {last} to {from}") };
         let hex = part.count >= 8;
         let shown = move |value: u64| {
-            if hex { hex_value(value, (part.count as usize).div_ceil(8)) } else { value.to_string() }
+            number_text(
+                value,
+                (part.count as usize).div_ceil(8),
+                if hex { Format::Hex } else { Format::Decimal },
+            )
         };
         let mut names: Vec<AnyView> = Vec::new();
         for name in part.names.iter().filter(|name| !name.label.is_empty()) {

@@ -129,7 +129,7 @@ pub fn source(source: &'static str) -> Option<AnyView> {
 /// A value as the manual writes it.
 fn value_text(spec: &'static Spec, value: u64) -> String {
     match spec.format {
-        Format::Hex => hex_value(value, if value > 0xFF { 2 } else { 1 }),
+        Format::Hex => hex_value(value, if value > 0xFF { 2 } else { 1 }).to_string(),
         _ => value.to_string(),
     }
 }

@@ -171,7 +171,10 @@ impl Hypothesis {
     /// The cause in a sentence; `found` is the telegram as it came.
     pub fn text(&self, found: &[u8]) -> Message {
         let at = self.place;
-        let byte = |bytes: &[u8]| bytes.get(at).map_or(String::new(), |byte| hex_value((*byte).into(), 1));
+        let byte = |bytes: &[u8]| match bytes.get(at) {
+            Some(byte) => Argument::Hex(hex_value((*byte).into(), 1)),
+            None => Argument::Term(""),
+        };
         let (was, is) = (byte(found), byte(&self.bytes));
         match self.cause {
             Cause::CheckSwapped => message!("the two bytes of the checksum are swapped"),

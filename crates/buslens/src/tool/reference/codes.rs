@@ -126,7 +126,7 @@ struct Meaning {
 fn meanings(spec: &'static Spec) -> Vec<Meaning> {
     let mut found = Vec::new();
     let shown = |value: u64, hex: bool| match hex {
-        true => hex_value(value, if value > 0xFF { 2 } else { 1 }),
+        true => hex_value(value, if value > 0xFF { 2 } else { 1 }).to_string(),
         false => value.to_string(),
     };
     let is_hex = spec.format == Format::Hex;
@@ -262,7 +262,7 @@ fn choices(codes: &mut Codes, kind: &'static modbus::Kind) {
         let mut pdu = kind.pdu(&STANDARD);
         let bytes: Vec<u8> =
             std::iter::once(kind.function).chain(value.to_be_bytes()[8 - width..].iter().copied()).collect();
-        walk::read(&mut pdu, &bytes);
+        walk::fill(&mut pdu, &bytes);
         guide(&mut pdu).into_iter().find(|row| row.offset == Some(1))?.chosen
     };
     let rows = guide(&mut kind.pdu(&STANDARD));

@@ -69,7 +69,7 @@ impl Register {
             true => text(self.from),
             false => format!("{} to {}", text(self.from), text(self.to)),
         };
-        let hex = |address: u16| hex_value(address.into(), 2);
+        let hex = |address: u16| hex_value(address.into(), 2).to_string();
         let decimal = |address: u16| address.to_string();
         let mut numbers = vec![match self.profile.hex_addresses {
             true => ("Decimal", pair(&decimal)),

@@ -173,7 +173,7 @@ fn other_layouts(carrier: &Protocol, kinds: &[&'static modbus::Kind]) -> Vec<Lay
     let mut layouts = Vec::new();
     if let Some(kind) = kinds.iter().find(|kind| kind.function == 43) {
         let mut pdu = kind.pdu(&STANDARD);
-        walk::read(&mut pdu, &[43, 13]);
+        walk::fill(&mut pdu, &[43, 13]);
         let rows = carried(carrier, pdu).unwrap_or_default();
         layouts.push(Layout::new("CANopen, MEI type 13", Direction::Request, "", rows));
     }
@@ -238,7 +238,7 @@ fn frame_layout(start: u8) -> Layout {
     let bytes = frame_bytes(start);
     let direction = Fdl::direction(bytes).unwrap_or(Direction::Request);
     let mut frame = (profibus_fdl::PROTOCOL.expect)(bytes, direction, &Settings::default());
-    walk::read(frame.as_mut(), bytes);
+    walk::fill(frame.as_mut(), bytes);
     Layout::new("Frame", direction, "", guide(frame.as_mut()))
 }
 

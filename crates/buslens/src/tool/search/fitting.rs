@@ -3,7 +3,7 @@
 use super::query::{Number, Query, STATES, Word, fold, in_words, meant, split};
 use super::{ADDRESS, ALSO, BEGINNING, Fit, NAME, NOTE, VALUE, WORD};
 use crate::device::{Access, Area, Content as Held, Parameter, Target, Task};
-use crate::field::{Argument, Message, Role, Spec, hex_value, number_text};
+use crate::field::{Argument, Format, Message, Role, Spec, hex_value, number_text};
 use crate::message;
 use crate::walk::form::{self, Content, Entry, Form};
 use crate::walk::{Deviations, Telegram};
@@ -344,7 +344,11 @@ impl<'a> Fitting<'a> {
                         return false;
                     }
                     let number = first + u64::from(inside);
-                    let text = if area.spec.hex_numbers { hex_value(number, 2) } else { number.to_string() };
+                    let text = number_text(
+                        number,
+                        2,
+                        if area.spec.hex_numbers { Format::Hex } else { Format::Decimal },
+                    );
                     self.entries.push(("number".to_owned(), text));
                 }
                 true
@@ -495,7 +499,7 @@ impl<'a> Fitting<'a> {
         let raw = [address, entry].into_iter().find(|raw| refers(*raw) == Some(parameter.address));
         let Some(raw) = raw else { return false };
         self.score += WORD;
-        self.fill(path, hex_value(raw, if raw > 0xFFFF { 4 } else { 2 }));
+        self.fill(path, hex_value(raw, if raw > 0xFFFF { 4 } else { 2 }).to_string());
         true
     }
 
