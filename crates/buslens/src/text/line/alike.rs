@@ -9,7 +9,7 @@
 
 use super::{Numbers, Scan, Style};
 use crate::field::{Facts, Span};
-use crate::text::characters::{DIGITS, decimal, is_bits, is_digit, is_serial_number, separator};
+use crate::text::characters::{DIGITS, decimal, is_bits, is_digit, separator};
 use crate::text::dump::has_offset;
 use crate::text::words::Sender;
 
@@ -157,9 +157,8 @@ impl Alike {
             (Some(mut told), Some(row)) => {
                 told.facts.counted = pattern.is_counted(row, line, self.bytes.len());
                 let (pairs, port) = (row.pairs, pattern.scan.port.as_slice());
-                if pairs.step == 2 {
-                    told.facts.digits = is_serial_number(&line[pairs.from..][..2 * self.bytes.len()]);
-                }
+                let width = (self.bytes.len() - 1) * pairs.step + pairs.width;
+                told.facts.digits = pattern.scan.runs[row.run].is_of_digits(&line[pairs.from..][..width]);
                 Like::Told { told, bytes: &self.bytes, time, pairs, port }
             }
             _ => Like::Read,
