@@ -41,7 +41,7 @@ pub use words::Sender;
 use std::hash::{Hash, Hasher};
 
 use crate::field::{Facts, Span};
-use characters::{is_phone_number, is_serial_number, is_word};
+use characters::is_word;
 use columns::Columns;
 use dump::{Dump, Words};
 use line::{Alike, Like, Run, Scan, Start, Told};
@@ -810,11 +810,7 @@ fn facts(line: &[u8], run: &Run, scan: &Scan) -> Facts {
             && (run.tokens() > 1 || run.len() == SHORTEST),
         marked: run.marked,
         listed: run.is_list(),
-        digits: match run.span.of(line) {
-            number if run.tokens() == 1 => is_serial_number(number),
-            list if run.is_list() => !list.windows(2).any(|two| two.iter().all(u8::is_ascii_hexdigit)),
-            number => is_phone_number(number),
-        },
+        digits: run.is_of_digits(run.span.of(line)),
         of_telegrams: scan.of_telegrams,
         of_leftovers: scan.of_leftovers,
         abridged,

@@ -2,7 +2,9 @@
 
 use super::Scan;
 use crate::field::Span;
-use crate::text::characters::{DIGITS, HEX, hex_value, is_word, separator, word, word_of};
+use crate::text::characters::{
+    DIGITS, HEX, hex_value, is_phone_number, is_serial_number, is_word, separator, word, word_of,
+};
 use crate::text::words::{Sender, Weight};
 
 /// How bytes without a mark of their own are written.
@@ -103,6 +105,15 @@ impl Run {
     /// Whether commas stand between its numbers.
     pub fn is_list(&self) -> bool {
         self.separator == b','
+    }
+
+    /// Whether what is written so is a number of many digits, or single ones.
+    pub fn is_of_digits(&self, text: &[u8]) -> bool {
+        match text {
+            number if self.tokens == 1 => is_serial_number(number),
+            list if self.is_list() => !list.windows(2).any(|two| two.iter().all(u8::is_ascii_hexdigit)),
+            number => is_phone_number(number),
+        }
     }
 
     /// Whether a mark stands between its bytes.
