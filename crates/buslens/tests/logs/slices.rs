@@ -23,6 +23,7 @@ fn open(file: &[u8], size: u64, reading: &Reading, division: Division) -> Log {
 /// All that there is to tell of a telegram.
 fn told(log: &Log, source: &dyn Source, index: usize) -> String {
     let entry: Entry = log.entry(index);
+    assert_eq!(log.entries().time(index), entry.time(), "telegram {index}");
     let Entry { offset, line, skip, length, port, unit, function, verdict, direction, role, .. } = entry;
     format!(
         "{:?} {offset} {line} {skip} {length} {:?} {port} {unit:?} {function} {verdict:?} {direction:?} {role:?} {:?} \
