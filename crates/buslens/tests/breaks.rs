@@ -457,7 +457,7 @@ mod builds {
 /// What the fuzzer found in texts and logs, each with its smallest input.
 mod found {
     use super::*;
-    use buslens::tool::log::{Input, Log, Reading};
+    use buslens::tool::log::{Input, Log, Reading, Role};
 
     /// Half a letter was no word and no sign: the reader stood still.
     #[test]
@@ -479,6 +479,19 @@ mod found {
         let report = decode("<-225\x00\x00225 9 0 1", options);
         for telegram in &report.telegrams {
             assert_eq!(telegram.line.bytes.len(), telegram.line.places.len(), "{:?}", telegram.line.bytes);
+        }
+    }
+
+    /// The length of an entry has 16 bits: of 70,000 bytes in a line, said to be a PDU, 4,464 were one.
+    #[test]
+    fn more_bytes_than_an_entry_can_count_are_no_telegram() {
+        let text = "5A ".repeat(70_000);
+        for protocol in PROTOCOLS {
+            let options = Options { protocol: Some(protocol), ..Options::default() };
+            let log = Log::read(text.as_bytes(), &Reading::default(), options).unwrap();
+            assert!(log.entries().iter().all(|it| it.role == Role::Discarded), "{}", protocol.key);
+            let counted: usize = log.entries().iter().map(|it| usize::from(it.length)).sum();
+            assert_eq!(counted, 70_000, "{}", protocol.key);
         }
     }
 

@@ -424,6 +424,10 @@ impl Traffic {
         verdict: Verdict,
     ) {
         let kept = keep(&mut self.data, bytes);
+        // No telegram is longer, whatever the bytes are said to be.
+        if bytes.len() > usize::from(u16::MAX) {
+            return self.discard(index, bytes, from, kept);
+        }
         self.push(index, bytes, from, kept, protocol, verdict, Role::Plain);
     }
 
