@@ -7,7 +7,6 @@
 
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::net::{Ipv4Addr, TcpListener, TcpStream};
-use std::num::NonZero;
 use std::path::Path;
 use std::process::{Child, Command, ExitCode, Stdio};
 use std::time::{Duration, Instant};
@@ -57,16 +56,13 @@ pub fn run(words: &[&str]) -> Result {
     let page = server::address(server::port(&listener)?);
     server::start(listener, Path::new(build::DIST))?;
 
-    // Those that measure how long the page takes have the machine for themselves; the others mostly wait for what they
-    // asked for, so there are more of them than cores.
-    let at_once = std::thread::available_parallelism().map_or(2, NonZero::get) * 2;
-    let at_once = format!("--test-threads={at_once}");
+    // Those that measure how long the page takes have the machine for themselves.
     let timed = [TIMED, "--test-threads=1"];
-    let others = ["--skip", TIMED, &at_once];
+    let others = ["--skip", TIMED];
     let parts = match names[..] {
         [] => vec![&timed[..], &others],
         _ if names.iter().all(|name| name.starts_with(TIMED)) => vec![&timed[1..]],
-        _ => vec![&others[2..]],
+        _ => vec![&[][..]],
     };
     for engine in engines {
         let browser = tools::browser(engine)?;

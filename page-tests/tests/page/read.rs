@@ -73,8 +73,8 @@ async fn answers_find_their_requests() -> Result {
     page.press(Key::Control + Key::End).await?;
     page.settle().await?;
     assert_eq!(page.shown().await?, "05 06 0C 90 04 01 48 33");
-    // Function 6 leaves open who speaks; a person can say so.
-    assert!(page.text(".reasons").await?.contains("Request or response? In function 6"));
+    // Function 6 looks the same in both directions; a person can say who speaks.
+    assert!(page.text(".reasons").await?.contains("it could be a response, too"));
     page.read_as("Direction", "response").await?;
     page.until(".lead h2", "Unit 5 confirms: holding register 3216").await?;
     page.close().await
