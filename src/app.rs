@@ -6,8 +6,8 @@ use std::time::Duration;
 use leptos::ev::{DragEvent, MouseEvent};
 use leptos::prelude::*;
 use leptos::wasm_bindgen::JsCast;
+use web_sys::File;
 use web_sys::js_sys::Reflect;
-use web_sys::{DataTransfer, File};
 
 use crate::address::{Address, Shows, View};
 use crate::browser::typing::is_typed_into;
@@ -88,13 +88,6 @@ pub fn App() -> impl IntoView {
         }
         open(file);
     };
-    // What will read a file gets ready while it is dragged here.
-    let entered = move |event: DragEvent| {
-        let files = |data: DataTransfer| data.types().includes(&"Files".into(), 0);
-        if event.data_transfer().is_some_and(files) {
-            read.log.file_comes.notify();
-        }
-    };
     let view = move || match address.view() {
         View::Read => view! { <Read /> }.into_any(),
         View::Build => view! { <LaterPiece piece=Piece::Build /> }.into_any(),
@@ -104,7 +97,7 @@ pub fn App() -> impl IntoView {
         View::Sheet => view! { <LaterPiece piece=Piece::Sheet /> }.into_any(),
     };
     view! {
-        <div class="app" on:dragenter=entered on:dragover=|event| event.prevent_default() on:drop=dropped>
+        <div class="app" on:dragover=|event| event.prevent_default() on:drop=dropped>
             <a class="skip" href="#main" on:click=skip>
                 "Skip to the content"
             </a>

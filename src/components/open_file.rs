@@ -17,21 +17,17 @@ pub fn OpenFile(
     /// Whether several can be opened at once.
     #[prop(optional)]
     multiple: bool,
-    /// Told before the system shows its files: what will read the chosen one can get ready.
-    #[prop(optional, into)]
-    before: Option<Trigger>,
     /// Called for each file.
     on_open: Callback<File>,
 ) -> impl IntoView {
     let open = move |event: Event| {
         file::chosen(&event_target(&event)).into_iter().for_each(|file| on_open.run(file))
     };
-    let click = move |_| before.iter().for_each(Trigger::notify);
     view! {
         <label class=format!("button open-file {class}")>
             <Icon glyph=Glyph::Open />
             {label}
-            <input class="unseen" type="file" accept=accept multiple=multiple on:click=click on:change=open />
+            <input class="unseen" type="file" accept=accept multiple=multiple on:change=open />
         </label>
     }
 }

@@ -157,8 +157,10 @@ impl Client {
     /// Sends to the worker, which is started if there is none.
     fn post(&self, request: &Request, beside: &JsValue) {
         let Some(mail) = mail::write(request, beside) else { return };
-        self.prepare();
         let mut kept = self.worker.borrow_mut();
+        if kept.is_none() {
+            *kept = self.start();
+        }
         match kept.as_mut() {
             Some(running) => {
                 running.reads = true;
@@ -179,14 +181,6 @@ impl Client {
                            Firefox, Chrome, Edge or Safari.";
                 (self.hear)(Answer::Refused(why.to_owned()), None);
             }
-        }
-    }
-
-    /// A large file may come soon: the worker for it, if there is none, starts meanwhile.
-    pub fn prepare(&self) {
-        let mut kept = self.worker.borrow_mut();
-        if kept.is_none() {
-            *kept = self.start();
         }
     }
 
@@ -218,7 +212,7 @@ impl Client {
             }
             running.watch = running.in_parts.then(|| self.watch(PATIENCE, running.size));
             if matches!(answer, Answer::Hello) {
-                running.watch = running.reads.then(|| self.watch(PATIENCE, running.size));
+                running.watch = Some(self.watch(PATIENCE, running.size));
                 for mail in running.waiting.take().unwrap_or_default() {
                     // It takes whatever this page writes.
                     let _ = running.worker.post(&mail);
@@ -231,7 +225,7 @@ impl Client {
     /// The worker did not start, or broke. The next file starts another one.
     fn failed(&self) {
         let Some(running) = self.worker.borrow_mut().take() else { return };
-        let lost = running.reads.then_some(match running.waiting {
+        let why = match running.waiting {
             Some(_) => {
                 "The part of Buslens that reads large files could not be loaded. Check the connection, and reload the \
                  page if it goes on like that."
@@ -240,13 +234,10 @@ impl Client {
                 "The part of Buslens that reads large files has ended: something in it broke, or the browser is short \
                  of memory. Please report the file if it goes on like that."
             }
-        });
+        };
         // A closure may not be dropped while it runs.
         Timeout::new(0, move || drop(running)).forget();
-        // Of one without a file, nobody waits for anything.
-        if let Some(why) = lost {
-            (self.hear)(Answer::Lost(why.to_owned()), None);
-        }
+        (self.hear)(Answer::Lost(why.to_owned()), None);
     }
 
     /// Ends a worker that says nothing for longer than `patience`, and what a file of this size adds to it.

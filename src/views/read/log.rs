@@ -80,8 +80,6 @@ pub struct LogState {
     pub total: RwSignal<usize>,
     /// The list is what somebody wants to see now.
     pub to_list: Trigger,
-    /// Somebody is about to open a file.
-    pub file_comes: Trigger,
     /// Counts the lists: each begins at its top.
     pub lists: RwSignal<usize>,
     /// The rows that are known, and the place of the first one.
@@ -132,7 +130,6 @@ impl LogState {
             lanes: RwSignal::default(),
             total: RwSignal::default(),
             to_list: Trigger::new(),
-            file_comes: Trigger::new(),
             lists: RwSignal::default(),
             rows: RwSignal::default(),
             current: RwSignal::default(),
@@ -154,7 +151,6 @@ impl LogState {
     pub fn start(self) {
         let hear = move |answer, beside| self.hear(answer, beside);
         self.client.set_value(Some(Client::new(Rc::new(hear))));
-        Effect::watch(move || self.file_comes.track(), move |(), _, _| self.client().prepare(), false);
         // Two tabs with the same log: each hears what is noted in the other.
         storage::on_change(NOTES, move |kept| {
             let key = self.key.get_untracked();

@@ -113,7 +113,7 @@ fn Input() -> impl IntoView {
                 <LaterPiece piece=Piece::ReadingChoices />
                 <div class="acts">
                     <LaterPiece piece=Piece::Examples />
-                    <OpenFile label="Open file" class="low" before=read.log.file_comes on_open=read.opener() />
+                    <OpenFile label="Open file" class="low" on_open=read.opener() />
                     <Show when=move || read.mode() != Mode::Start>
                         <button type="button" class="button plain low" on:click=move |_| read.clear()>
                             <Icon glyph=Glyph::Close />

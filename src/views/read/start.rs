@@ -19,7 +19,7 @@ pub fn Welcome() -> impl IntoView {
                         <strong>{name.clone()}</strong>
                         " was open at your last visit. This browser has not kept it: open it again."
                     </p>
-                    <OpenFile label=format!("Open {name}") class="main" before=read.log.file_comes on_open=read.opener() />
+                    <OpenFile label=format!("Open {name}") class="main" on_open=read.opener() />
                 </div>
             }
         })

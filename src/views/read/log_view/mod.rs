@@ -111,7 +111,7 @@ fn FileBar() -> impl IntoView {
                     <Icon glyph=Glyph::Close />
                     "Close"
                 </button>
-                <OpenFile label="Open another" class="plain" before=read.log.file_comes on_open=read.opener() />
+                <OpenFile label="Open another" class="plain" on_open=read.opener() />
                 <Tools />
                 <Menu label="Export" glyph=Glyph::Save at_end=true>
                     {Export::FILES.map(export).into_iter().collect_view()}
