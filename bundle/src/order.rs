@@ -19,7 +19,8 @@ use crate::uniform::uniform;
 pub fn ordered(wasm: &[u8], is_packed: bool) -> Result<Vec<u8>, String> {
     let says = |error: String| format!("A part of the module is no wasm: {error}.");
     // What is packed is what is to be like each other.
-    let wasm = &if is_packed { Cow::Owned(uniform(wasm)?) } else { Cow::Borrowed(wasm) };
+    let alike = || uniform(wasm).map(Cow::Owned).map_err(|error| says(error.to_string()));
+    let wasm = &if is_packed { alike()? } else { Cow::Borrowed(wasm) };
     let mut order = Order::of(wasm, is_packed).map_err(|error| says(error.to_string()))?;
     let mut module = Module::new();
     order.parse_core_module(&mut module, Parser::new(0), wasm).map_err(|error| says(error.to_string()))?;

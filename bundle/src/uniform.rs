@@ -9,13 +9,10 @@ use wasm_encoder::{CodeSection, Function, Instruction, MemArg, Module};
 use wasmparser::{BinaryReaderError, CompositeInnerType, FunctionBody, Operator, Parser, Payload, ValType};
 
 /// The same module, with uniform functions.
-pub fn uniform(wasm: &[u8]) -> Result<Vec<u8>, String> {
-    let says = |error: String| format!("A part of the module is no wasm: {error}.");
-    let parameters = parameters(wasm).map_err(|error| says(error.to_string()))?.into_iter();
+pub fn uniform(wasm: &[u8]) -> Result<Vec<u8>, Error> {
+    let parameters = parameters(wasm)?.into_iter();
     let mut module = Module::new();
-    Uniform { parameters, numbers: Vec::new() }
-        .parse_core_module(&mut module, Parser::new(0), wasm)
-        .map_err(|error| says(error.to_string()))?;
+    Uniform { parameters, numbers: Vec::new() }.parse_core_module(&mut module, Parser::new(0), wasm)?;
     Ok(module.finish())
 }
 
